@@ -1,0 +1,139 @@
+# `make` builds build/polylab, `make demo` labels a CAD model, `make test` runs the tests, `make help` names the rest.
+
+# Library sources src/NAME.cpp in the order of their dependence; src/main.cpp is the program.
+MODULES = costs orientation mesh text io tet_surface maxflow alpha_expansion initial_labeling labeling_graph turning_points json statistics \
+          explain diff polylab cli
+TESTS = $(wildcard tests/*.cpp)
+
+# To choose on the command line: config=release|debug|sanitize|coverage  werror=1  builddir=DIR  verbose=1  CXX=…  CXXFLAGS=…
+config = release
+builddir = build
+PREFIX = /usr/local
+demo_model = golden/cases/bracket/bracket.mesh
+
+flags_release = -O2 -g
+flags_debug = -O0 -g -D_GLIBCXX_ASSERTIONS
+flags_sanitize = -O1 -g -D_GLIBCXX_ASSERTIONS -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
+flags_coverage = -O0 -g --coverage
+$(if $(flags_$(config)),,$(error config=$(config): expected release, debug, sanitize or coverage))
+
+# -ffp-contract=off: the same bits with and without fused multiply-add. No -DNDEBUG: cheap checks stay on.
+warnings = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $(if $(werror),-Werror)
+compile = $(CXX) -Iinclude $(warnings) $(flags_$(config)) $(CPPFLAGS) $(CXXFLAGS) -std=c++17 -ffp-contract=off
+link = $(CXX) $(flags_$(config)) $(CXXFLAGS) $(LDFLAGS)
+
+out = $(if $(filter release,$(config)),$(builddir),$(builddir)/$(config))
+objects = $(builddir)/$(config)/objects
+program = $(out)/polylab
+library = $(out)/libpolylab.a
+tests = $(out)/tests
+library_objects = $(MODULES:%=$(objects)/src/%.o)
+test_objects = $(TESTS:%.cpp=$(objects)/%.o)
+sources = $(wildcard include/polylab/*.h src/*.cpp src/*.h tests/*.cpp tests/*.h)
+
+absolute = $(if $(filter /%,$(1)),$(1),$(CURDIR)/$(1))
+test_defines = -DPOLYLAB_SOURCE_DIR='"$(CURDIR)"' -DPOLYLAB_BUILD_DIR='"$(call absolute,$(out))"' \
+               -DPOLYLAB_PROGRAM='"$(call absolute,$(program))"'
+commit_of_tree = test -e .git && git rev-parse --short HEAD && (git diff --quiet HEAD || echo -dirty)
+commit := $(subst $() ,,$(or $(shell ($(commit_of_tree)) 2>/dev/null),unknown))
+
+say = @echo '  $@'
+quiet = $(if $(verbose),,@)
+dry_run = $(findstring n,$(firstword -$(MAKEFLAGS)))
+
+MAKEFLAGS += --no-builtin-rules
+.DELETE_ON_ERROR:
+.PHONY: all demo test doctest static amalgamated coverage install format format-fix tidy clean help FORCE
+
+all: $(program)
+
+$(program): $(objects)/src/main.o $(library)
+	$(say)
+	$(quiet)$(link) -o $@ $^
+
+# Made anew, so that an object that left the list leaves the archive.
+$(library): $(library_objects)
+	$(say)
+	@rm -f $@
+	$(quiet)$(AR) rcs $@ $^
+
+$(objects)/src/main.o: private defines = -DPOLYLAB_COMMIT='"$(commit)"'
+$(objects)/src/main.o: $(objects)/commit
+$(objects)/tests/%.o: private defines = $(test_defines)
+$(test_objects): | doctest
+$(objects)/%.o: %.cpp $(objects)/flags
+	@mkdir -p $(@D)
+	$(say)
+	$(quiet)$(compile) $(defines) -MMD -MP -c -o $@ $<
+
+# Files that are written only when their content changes, so that objects are rebuilt for new flags or a new commit.
+stamp = @mkdir -p $(@D); test "$$(cat $@ 2>/dev/null)" = '$(subst ','\'',$(1))' || printf '%s\n' '$(subst ','\'',$(1))' > $@
+$(objects)/flags: FORCE
+	$(call stamp,$(compile) $(test_defines))
+$(objects)/commit: FORCE
+	$(call stamp,$(commit))
+
+-include $(library_objects:.o=.d) $(test_objects:.o=.d) $(objects)/src/main.d
+
+demo: $(program)
+	@mkdir -p $(out)/demo
+	$(program) label $(demo_model) -o $(out)/demo/labels.txt --stats $(out)/demo/stats.json --verbose
+
+test: $(tests) $(program)
+	@$(tests)
+
+$(tests): $(test_objects) $(library)
+	$(say)
+	$(quiet)$(link) -o $@ $^
+
+doctest:
+	@$(if $(or $(dry_run),$(shell tools/get_doctest.sh $(CXX) $(CPPFLAGS) && echo found)),:,$(error tests need the header doctest/doctest.h; type: sudo apt-get install doctest-dev))
+
+static: $(builddir)/polylab-static
+$(builddir)/polylab-static: $(objects)/src/main.o $(library)
+	$(say)
+	$(quiet)$(link) -static -o $@ $^
+
+# All sources as one translation unit: proves that no two files use a name for different things.
+amalgamated: $(out)/polylab-amalgamated
+	$< --version
+$(out)/polylab-amalgamated: $(out)/amalgamated.cpp $(wildcard include/polylab/*.h src/*.h src/*.cpp) $(objects)/flags $(objects)/commit
+	$(say)
+	$(quiet)$(compile) -I. -DPOLYLAB_COMMIT='"$(commit)"' $(LDFLAGS) -o $@ $<
+$(out)/amalgamated.cpp: Makefile
+	@mkdir -p $(@D)
+	@printf '#include "%s"\n' $(MODULES:%=src/%.cpp) src/main.cpp > $@
+
+coverage:
+	@$(MAKE) --no-print-directory config=coverage test
+	@tools/coverage.sh $(builddir)/coverage/objects/src
+
+install: $(program)
+	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/lib" "$(DESTDIR)$(PREFIX)/include/polylab"
+	install -m 755 $(program) "$(DESTDIR)$(PREFIX)/bin"
+	install -m 644 $(library) "$(DESTDIR)$(PREFIX)/lib"
+	install -m 644 include/polylab/*.h "$(DESTDIR)$(PREFIX)/include/polylab"
+
+format:
+	clang-format --dry-run -Werror $(sources)
+format-fix:
+	clang-format -i $(sources)
+
+tidy:
+	clang-tidy --quiet $(MODULES:%=src/%.cpp) src/main.cpp -- -std=c++17 -Iinclude
+
+clean:
+	rm -rf $(builddir)
+
+help:
+	@echo "make              build/polylab and build/libpolylab.a"
+	@echo "make demo         labels the CAD model $(demo_model)"
+	@echo "make test         builds and runs the tests (doctest)"
+	@echo "make static       build/polylab-static, one file that runs anywhere"
+	@echo "make amalgamated  all sources as one translation unit"
+	@echo "make coverage     which share of the lines the tests run"
+	@echo "make install      program, headers and library to PREFIX ($(PREFIX)), under DESTDIR if set"
+	@echo "make format       checks the format (clang-format 14); format-fix repairs it"
+	@echo "make tidy         checks names and suspicious code (clang-tidy)"
+	@echo "make clean        removes $(builddir)/"
+	@echo "With: config=release|debug|sanitize|coverage  werror=1  builddir=DIR  verbose=1  CXX=...  CXXFLAGS=..."

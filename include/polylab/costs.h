@@ -1,0 +1,32 @@
+// costs.h: the only module that calls libm, and each call becomes an integer at once.
+//
+// exp and acos differ in the last bit between C libraries, and between CPUs under one library. Truncated or rounded
+// to an integer the difference is gone (but for an argument within 1e-16 of a step), so that everything above
+// this module compares integers and gives the same labels everywhere.
+#pragma once
+
+#include "polylab/vec3.h"
+
+#include <cstdint>
+
+namespace polylab {
+
+// trunc(scale * exp(-(x/sigma)^2 / 2)), a bell: `scale` at x = 0.        port: truncation toward zero, not rounding
+int bell_cost(double x, double sigma, int scale);
+
+// trunc(scale * (1 - exp(-(x/sigma)^2 / 2))), its complement: 0 at x = 0. port: not scale - bell_cost
+int well_cost(double x, double sigma, int scale);
+
+// The angle whose cosine is c (clamped to [-1, 1]), in microradians: 0..3141593.
+std::int32_t angle_cost(double c);
+
+// The angle between two vectors in microradians; 0 where one of them has no length.
+std::int32_t angle_cost(const Vec3& a, const Vec3& b);
+
+// Sine and cosine of an angle of at most a few turns, by their Taylor series: + and * only, so the same bits everywhere.
+struct SinCos {
+    double sin, cos;
+};
+SinCos sin_cos(double radians);
+
+}  // namespace polylab

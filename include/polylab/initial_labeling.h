@@ -1,0 +1,39 @@
+// initial_labeling.h: the labelings that need no repair yet (paper, Section 5).
+#pragma once
+
+#include "polylab/alpha_expansion.h"
+#include "polylab/mesh.h"
+
+#include <vector>
+
+namespace polylab {
+
+struct InitialOptions {
+    int compactness = 1;         // weight of the pairwise cost, 0..1000
+    int fidelity = 3;            // weight of the data cost, 0..1000; paper: ratio 1/3
+    double sensitivity = 1e-9;   // facets whose two best labels are closer than this are tilted (published code; paper: 1e-10)
+    double angle = 0.05;         // rad, by which they are tilted around X, then Y, then Z
+};
+
+// The label closest to each normal; the first of equals; +X for a facet without area. O(n)
+Labeling naive_labeling(const TriMesh& mesh);
+
+// Facets whose two closest labels differ by less than `sensitivity`: near 45 degrees, where rounding would decide.
+std::vector<char> facets_to_tilt(const TriMesh& mesh, double sensitivity);
+
+// R = Rz Ry Rx, the rotation by `angle` around each axis in turn, applied to a normal.
+Vec3 tilted(const Vec3& normal, double angle);
+
+// trunc(100 fidelity (1 - exp(-((n.d - 1)/0.2)^2 / 2))): what it costs to give label l to a facet with this normal.
+int data_cost(const Vec3& normal, Label l, int fidelity);
+
+// trunc(100 compactness exp(-((n.m - 1)/0.25)^2 / 2)): what it costs to separate facets with these normals.
+int pairwise_cost(const Vec3& normal, const Vec3& neighbour, int compactness);
+
+// The whole energy: one site per facet, one edge per mesh edge, tilted normals in the data cost only.
+PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options = {});
+
+// Alpha-expansion of that energy, two cycles from +X everywhere. O(n) but for the max-flow.
+Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options = {});
+
+}  // namespace polylab

@@ -1,0 +1,89 @@
+#include "polylab/cli.h"
+
+#include "polylab/text.h"
+
+#include <algorithm>
+
+namespace polylab {
+
+std::string Arguments::get(const std::string& name, const std::string& otherwise) const {
+    const auto found = options.find(name);
+    return found == options.end() ? otherwise : found->second;
+}
+
+int Arguments::integer(const std::string& name, int otherwise, int least, int most) const {
+    if (!has(name)) return otherwise;
+    const std::string text = get(name), range = "an integer from " + std::to_string(least) + " to " + std::to_string(most);
+    const Scanner scanner(text, name);
+    const int i = scanner.to_integer(text, range.c_str());
+    if (i < least || i > most) scanner.fail(range, text);
+    return i;
+}
+
+double Arguments::number(const std::string& name, double otherwise, double least, double most) const {
+    if (!has(name)) return otherwise;
+    std::string range = "a number from ";
+    append(range, least);
+    range += " to ";
+    append(range, most);
+    const std::string text = get(name);
+    const Scanner scanner(text, name);
+    const double x = scanner.to_number(text, range.c_str());
+    if (x < least || x > most) scanner.fail(range, text);
+    return x;
+}
+
+Arguments parse_arguments(const Command& command, const std::vector<std::string>& words) {
+    Arguments arguments;
+    bool options_over = false;
+    for (std::size_t i = 0; i < words.size(); i++) {
+        const std::string& word = words[i];
+        if (options_over || word.size() < 2 || word[0] != '-') {
+            arguments.operands.push_back(word);
+            continue;
+        }
+        if (word == "--") {
+            options_over = true;
+            continue;
+        }
+        const std::size_t equal = word.rfind("--", 0) == 0 ? word.find('=') : std::string::npos;
+        const std::string name = word.substr(0, equal);
+        const auto option = std::find_if(command.options.begin(), command.options.end(), [&](const Option& o) { return o.name == name; });
+        if (option == command.options.end()) throw UsageError("unknown option " + name);
+        if (arguments.has(name)) throw UsageError("option " + name + " is given twice");
+        if (option->value.empty()) {
+            if (equal != std::string::npos) throw UsageError("option " + name + " takes no value");
+            arguments.options[name] = "";
+        } else if (equal != std::string::npos) {
+            arguments.options[name] = word.substr(equal + 1);
+        } else if (i + 1 < words.size()) {
+            arguments.options[name] = words[++i];
+        } else {
+            throw UsageError("option " + name + " needs a value: " + option->value);
+        }
+    }
+    if (arguments.operands.size() < command.operands.size()) throw UsageError("missing " + command.operands[arguments.operands.size()]);
+    if (arguments.operands.size() > command.operands.size()) throw UsageError("unexpected '" + arguments.operands[command.operands.size()] + "'");
+    return arguments;
+}
+
+std::string help(const std::string& program, const Command& command) {
+    std::string text = "usage: " + program + " " + command.name;
+    for (const std::string& operand : command.operands) text += " " + operand;
+    text += " [options]\n\n" + command.about + "\n\noptions:\n";
+    std::size_t width = 0;
+    for (const Option& o : command.options) width = std::max(width, o.name.size() + o.value.size() + 1);
+    for (const Option& o : command.options) {
+        std::string head = "  " + o.name + (o.value.empty() ? "" : " " + o.value);
+        head.resize(width + 4, ' ');
+        text += head;
+        for (const char c : o.help) {
+            text += c;
+            if (c == '\n') text += std::string(width + 4, ' ');
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace polylab

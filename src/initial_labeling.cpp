@@ -1,0 +1,77 @@
+#include "polylab/initial_labeling.h"
+
+#include "polylab/costs.h"
+
+#include <algorithm>
+
+namespace polylab {
+
+namespace {
+
+constexpr double kDataSigma = 0.20, kPairwiseSigma = 0.25;   // published code; the forms come from Evocube
+constexpr int kCostScale = 100;
+constexpr int kCycles = 2;
+
+}  // namespace
+
+Labeling naive_labeling(const TriMesh& mesh) {
+    Labeling labels(mesh.facets());
+    for (Index f = 0; f < mesh.facets(); f++) {
+        Label best = 0;
+        for (Label l = 1; l < kLabels; l++)   // negative components count as 0, as in the published weights
+            if (std::max(0.0, along(mesh.normal[f], l)) > std::max(0.0, along(mesh.normal[f], best))) best = l;   // tie: smallest label
+        labels[f] = best;
+    }
+    return labels;
+}
+
+std::vector<char> facets_to_tilt(const TriMesh& mesh, double sensitivity) {
+    std::vector<char> tilt(mesh.facets());
+    for (Index f = 0; f < mesh.facets(); f++) {
+        // Of two opposite labels one has weight 0, so the two largest weights are the two largest components.
+        const Vec3& n = mesh.normal[f];
+        double c[3] = {std::abs(n.x), std::abs(n.y), std::abs(n.z)};
+        std::sort(c, c + 3);
+        tilt[f] = c[2] - c[1] < sensitivity;
+    }
+    return tilt;
+}
+
+Vec3 tilted(const Vec3& n, double angle) {
+    const auto [s, c] = sin_cos(angle);
+    return {c * c * n.x + s * c * (s - 1) * n.y + s * (c * c + s) * n.z,
+            s * c * n.x + (s * s * s + c * c) * n.y + s * c * (s - 1) * n.z,
+            -s * n.x + s * c * n.y + c * c * n.z};
+}
+
+int data_cost(const Vec3& normal, Label l, int fidelity) {
+    return well_cost(along(normal, l) - 1, kDataSigma, kCostScale * fidelity);
+}
+
+int pairwise_cost(const Vec3& normal, const Vec3& neighbour, int compactness) {
+    return bell_cost(dot(normal, neighbour) - 1, kPairwiseSigma, kCostScale * compactness);
+}
+
+PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) {
+    PottsEnergy energy;
+    const std::vector<char> tilt = facets_to_tilt(mesh, options.sensitivity);
+    energy.data.resize(mesh.facets());
+    for (Index f = 0; f < mesh.facets(); f++) {
+        const Vec3 n = tilt[f] ? tilted(mesh.normal[f], options.angle) : mesh.normal[f];
+        for (Label l = 0; l < kLabels; l++) energy.data[f][l] = data_cost(n, l, options.fidelity);
+    }
+    energy.ends.reserve(mesh.halfedges());
+    energy.weight.reserve(mesh.halfedges() / 2);
+    for (Index h = 0; h < mesh.halfedges(); h++) {
+        if (h > mesh.opposite[h]) continue;
+        energy.ends.insert(energy.ends.end(), {mesh.left(h), mesh.right(h)});
+        energy.weight.push_back(pairwise_cost(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)], options.compactness));
+    }
+    return energy;
+}
+
+Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options) {
+    return alpha_expansion(labeling_energy(mesh, options), Labeling(mesh.facets(), 0), kCycles);
+}
+
+}  // namespace polylab

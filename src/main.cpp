@@ -1,0 +1,313 @@
+// main.cpp: the command line. What each command does is in the library; here are its words, messages and exit status.
+
+#include "polylab/cli.h"
+#include "polylab/diff.h"
+#include "polylab/explain.h"
+#include "polylab/polylab.h"
+
+#include <chrono>
+#include <cstdio>
+#include <new>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+static bool on_terminal() { return isatty(2) != 0; }
+#else
+static bool on_terminal() { return false; }
+#endif
+
+#if !defined(POLYLAB_COMMIT)
+#define POLYLAB_COMMIT "unknown"
+#endif
+
+namespace polylab {
+namespace {
+
+enum ExitStatus { kDone = 0, kNotValid = 1, kNoResult = 2 };
+
+// Messages on standard error. Summary and progress are for people at a terminal; warnings are for everyone.
+class Console {
+public:
+    explicit Console(const Arguments& arguments)
+        : quiet_(arguments.has("--quiet")), verbose_(arguments.has("--verbose")), talk_(!quiet_ && (verbose_ || on_terminal())) {}
+
+    void say(const std::string& line) const {
+        if (talk_) print(line);
+    }
+    void detail(const std::string& line) const {
+        if (verbose_) print(line);
+    }
+    void warn(const std::string& line) const {
+        if (!quiet_) print(line);
+    }
+
+private:
+    static void print(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+
+    bool quiet_, verbose_, talk_;
+};
+
+class Stopwatch {
+public:
+    std::string seconds() const {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.3f s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
+        return text;
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+const Option kOutput = {"-o", "FILE", "where the result goes; standard output without this, or with -"};
+const Option kFeatures = {"--features", "SOURCE", "file: the sharp ones among the file's feature edges (default)\n"
+                                                  "detect[=ANGLE]: every edge at which normals differ by ANGLE (0.5) rad or more"};
+const Option kQuiet = {"--quiet", "", "errors only"};
+const Option kVerbose = {"--verbose", "", "progress and summary, also where standard error is not a terminal"};
+
+FeatureOptions feature_options(const Arguments& arguments) {
+    FeatureOptions options;
+    const std::string source = arguments.get("--features", "file");
+    const std::size_t equal = source.find('=');
+    options.detect = source.substr(0, equal) == "detect";
+    if (!options.detect && source != "file") throw UsageError("--features: expected 'file' or 'detect[=ANGLE]', found '" + source + "'");
+    if (options.detect && equal != std::string::npos) {
+        Arguments angle;
+        angle.options["--features detect"] = source.substr(equal + 1);
+        options.cosine = sin_cos(angle.number("--features detect", 0.5, 0, 3.1415926535897931)).cos;
+    }
+    return options;
+}
+
+TriMesh read_part(const Arguments& arguments, const Console& console) {
+    const std::string& path = arguments.operands[0];
+    const TriMesh mesh = read_surface(path, feature_options(arguments));
+    for (const std::string& note : notes(mesh)) console.warn(path + ": " + note);
+    console.say(path + ": " + std::to_string(mesh.facets()) + " facets, " + std::to_string(mesh.vertices()) + " vertices, " +
+                std::to_string(mesh.features_kept) + " feature edges");
+    return mesh;
+}
+
+struct Judged {
+    LabelingGraph graph;
+    Statistics statistics;
+};
+
+Judged judge(const TriMesh& mesh, const Labeling& labels) {
+    Judged judged;
+    judged.graph = build_graph(mesh, labels);
+    judged.statistics = statistics(mesh, labels, judged.graph);
+    return judged;
+}
+
+ExitStatus status_of(const Statistics& s) { return s.result_class() == Class::invalid ? kNotValid : kDone; }
+
+int run_label(const Arguments& arguments) {
+    const Console console(arguments);
+    const Stopwatch watch;
+    const std::string method = arguments.get("--method", "full"), output = arguments.get("-o", "-");
+    if (method != "full" && method != "graphcut" && method != "naive")
+        throw UsageError("--method: expected 'full', 'graphcut' or 'naive', found '" + method + "'");
+    if (arguments.has("--init") && method != "full") throw UsageError("--init only goes with --method full");
+    InitialOptions initial;
+    initial.compactness = arguments.integer("--compactness", initial.compactness, 0, 1000);
+    initial.fidelity = arguments.integer("--fidelity", initial.fidelity, 0, 1000);
+    initial.sensitivity = arguments.number("--sensitivity", initial.sensitivity, 0, 1);
+    initial.angle = arguments.number("--angle", initial.angle, -1, 1);
+
+    const TriMesh mesh = read_part(arguments, console);
+    console.detail("read and built in " + watch.seconds());
+    Labeling labels;
+    if (arguments.has("--init"))
+        labels = read_labels(arguments.get("--init"), mesh.facets());
+    else if (method == "naive")
+        labels = naive_labeling(mesh);
+    else
+        labels = graphcut_labeling(mesh, initial);
+    const Judged result = judge(mesh, labels);
+    if (arguments.has("--stats")) write_file(arguments.get("--stats"), statistics_json(result.statistics, explain(mesh, result.graph)));
+    write_file(output, labels_text(labels));
+    console.say(summary(result.statistics));
+    console.say((output == "-" ? "labels written" : "labels written to " + output) + " after " + watch.seconds());
+    const std::string advice = hint(mesh);
+    if (status_of(result.statistics) == kNotValid && !advice.empty()) console.say("hint: " + advice);
+    return method == "full" ? status_of(result.statistics) : kDone;
+}
+
+int run_stats(const Arguments& arguments) {
+    const Console console(arguments);
+    const TriMesh mesh = read_part(arguments, console);
+    const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
+    const Judged result = judge(mesh, labels);
+    write_file(arguments.get("-o", "-"), statistics_json(result.statistics, explain(mesh, result.graph)));
+    console.say(summary(result.statistics));
+    return status_of(result.statistics);
+}
+
+int run_explain(const Arguments& arguments) {
+    const Console console(arguments);
+    const TriMesh mesh = read_part(arguments, console);
+    const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
+    const Judged result = judge(mesh, labels);
+    std::string text;
+    for (const Problem& p : explain(mesh, result.graph)) text += p.text + "\n";
+    const std::string advice = hint(mesh);
+    if (!text.empty() && !advice.empty()) text += "hint: " + advice + "\n";
+    write_file(arguments.get("-o", "-"), text.empty() ? "valid, and every boundary is monotone\n" : text);
+    return status_of(result.statistics);
+}
+
+int run_diff(const Arguments& arguments) {
+    const Console console(arguments);
+    const TriMesh mesh = read_part(arguments, console);
+    const Labeling a = read_labels(arguments.operands[1], mesh.facets()), b = read_labels(arguments.operands[2], mesh.facets());
+    write_file(arguments.get("-o", "-"), diff_text(mesh, a, b));
+    return a == b ? kDone : kNotValid;
+}
+
+int run_surface(const Arguments& arguments) {
+    const Console console(arguments);
+    const std::string& path = arguments.operands[0];
+    if (!arguments.has("-o")) throw UsageError("missing -o FILE.obj or FILE.mesh");
+    const MeshData tets = read_mesh(path);
+    TetSurface extracted;
+    TriMesh mesh;
+    MeshData written;
+    try {
+        extracted = extract_surface(tets);
+        written.edges = extracted.surface.edges;
+        mesh = build_mesh(std::move(extracted.surface));
+    } catch (const InputError& error) {
+        throw error.in(path);
+    }
+    for (const std::string& note : notes(mesh)) console.warn(path + ": " + note);
+    written.points = mesh.points;
+    written.triangles = mesh.origin;
+    if (arguments.has("--map")) write_file(arguments.get("--map"), surface_map_text(extracted.map));
+    write_mesh(arguments.get("-o"), written);
+    console.say(path + ": " + std::to_string(extracted.map.tets) + " tetrahedra, " + std::to_string(mesh.facets()) + " triangles on the surface");
+    return kDone;
+}
+
+int run_volume_labels(const Arguments& arguments) {
+    const SurfaceMap map = read_surface_map(arguments.operands[1]);
+    const Labeling labels = read_labels(arguments.operands[0], static_cast<Index>(map.tet_facet.size()));
+    write_file(arguments.get("-o", "-"), labels_text(volume_labels(labels, map)));
+    return kDone;
+}
+
+const std::string kPartHelp =
+    "PART is a closed surface of triangles (.obj, .stl, .mesh) or a tet mesh (.mesh). Labels are 0 = +X, 1 = -X, 2 = +Y,\n"
+    "3 = -Y, 4 = +Z, 5 = -Z, one per triangle, in the order of the file. Elements in messages are counted from 0.";
+
+const std::vector<Command>& commands() {
+    static const std::vector<Command> table = {
+        {"label",
+         {"PART"},
+         "Gives every triangle of a CAD part one of six labels so that they form a polycube.\n\n" + kPartHelp,
+         {kOutput,
+          {"--init", "LABELS", "start from these labels instead of the graph-cut's"},
+          {"--method", "METHOD", "full (default), or one of the initial labelings: graphcut, naive"},
+          {"--stats", "JSON", "also write the statistics of the result"},
+          {"--compactness", "N", "graph-cut: weight of separating neighbours (default 1)"},
+          {"--fidelity", "N", "graph-cut: weight of leaving the normal (default 3)"},
+          {"--sensitivity", "X", "graph-cut: tilt facets whose two best labels are closer than X (default 1e-9)"},
+          {"--angle", "RAD", "graph-cut: tilt them by this angle around X, Y and Z (default 0.05)"},
+          kFeatures,
+          kQuiet,
+          kVerbose},
+         run_label},
+        {"stats",
+         {"PART", "LABELS"},
+         "Counts charts, boundaries, corners, turning-points and feature edges of a labeling, as JSON.\n\n" + kPartHelp,
+         {kOutput, kFeatures, kQuiet, kVerbose},
+         run_stats},
+        {"explain",
+         {"PART", "LABELS"},
+         "Says in words which charts, boundaries and corners are invalid, and where boundaries turn; worst first.\n\n" + kPartHelp,
+         {kOutput, kFeatures, kQuiet, kVerbose},
+         run_explain},
+        {"diff",
+         {"PART", "A", "B"},
+         "Says what changed from labeling A to labeling B. Exit status 1 if anything did.\n\n" + kPartHelp,
+         {kOutput, kFeatures, kQuiet, kVerbose},
+         run_diff},
+        {"surface",
+         {"TETS"},
+         "Extracts the surface of a tet mesh, facing outward.",
+         {{"-o", "FILE", "the surface: .obj or .mesh"},
+          {"--map", "FILE", "for each triangle of the surface: 4 * tetrahedron + local facet"},
+          kQuiet,
+          kVerbose},
+         run_surface},
+        {"volume-labels",
+         {"LABELS", "MAP"},
+         "Carries surface labels to the facets of the tetrahedra: four labels per tetrahedron, -1 inside.",
+         {kOutput},
+         run_volume_labels},
+    };
+    return table;
+}
+
+std::string overview() {
+    std::string text =
+        "polylab gives every triangle of a CAD part's surface one of six labels +X -X +Y -Y +Z -Z: a polycube labeling.\n\n"
+        "usage: polylab COMMAND …\n\n";
+    for (const Command& command : commands()) {
+        std::string name = "  " + command.name;
+        name.resize(17, ' ');
+        text += name + command.about.substr(0, command.about.find('\n')) + "\n";
+    }
+    return text +
+           "\nfirst steps:\n"
+           "  polylab label part.obj -o labels.txt      label a part\n"
+           "  polylab explain part.obj labels.txt       what is wrong with the result, if anything\n"
+           "  polylab label --help                      all options of a command\n\n"
+           "exit status: 0 done (and valid), 1 done but not valid, 2 no result (wrong use, wrong input, output can't be written)\n";
+}
+
+int run(const std::vector<std::string>& words) {
+    const std::string first = words.empty() ? "" : words[0];
+    if (first == "--help" || first == "-h" || first == "help") {
+        write_file("-", overview());
+        return kDone;
+    }
+    if (first == "--version") {
+        write_file("-", std::string("polylab ") + kVersion + " (commit " + POLYLAB_COMMIT + ")\nthe same labels on Linux x86-64 and aarch64, built by g++ 12 or clang 14 and later\n");
+        return kDone;
+    }
+    for (const Command& command : commands()) {
+        if (command.name != first) continue;
+        const std::vector<std::string> rest(words.begin() + 1, words.end());
+        for (const std::string& word : rest) {
+            if (word == "--") break;
+            if (word != "--help" && word != "-h") continue;
+            write_file("-", help("polylab", command));
+            return kDone;
+        }
+        try {
+            return command.run(parse_arguments(command, rest));
+        } catch (const UsageError& error) {
+            std::fprintf(stderr, "polylab %s: %s (see polylab %s --help)\n", first.c_str(), error.what(), first.c_str());
+            return kNoResult;
+        }
+    }
+    std::fprintf(stderr, "polylab: %s (see polylab --help)\n", first.empty() ? "missing command" : ("unknown command '" + first + "'").c_str());
+    return kNoResult;
+}
+
+}  // namespace
+}  // namespace polylab
+
+int main(int argc, char** argv) {
+    try {
+        return polylab::run(std::vector<std::string>(argv + 1, argv + argc));
+    } catch (const polylab::InputError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "polylab: not enough memory\n");
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "polylab: internal error: %s\n", error.what());
+    }
+    return polylab::kNoResult;
+}

@@ -1,0 +1,209 @@
+#include "polylab/orientation.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace polylab {
+
+namespace {
+
+struct Box {
+    Vec3 low, high;
+
+    void add(const Vec3& p) {
+        for (int a = 0; a < 3; a++) {
+            low[a] = std::min(low[a], p[a]);
+            high[a] = std::max(high[a], p[a]);
+        }
+    }
+    bool inside(const Box& b) const {
+        for (int a = 0; a < 3; a++)
+            if (low[a] < b.low[a] || high[a] > b.high[a]) return false;
+        return true;
+    }
+};
+
+struct Components {
+    std::vector<Index> facets;       // all facets, component by component
+    std::vector<Index> first;        // component -> its first entry of `facets`; one more at the end
+    std::vector<char> turned;        // facet -> 1 where it disagrees with the first facet of its component
+
+    Index count() const { return static_cast<Index>(first.size()) - 1; }
+};
+
+Index next_in_facet(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+
+// Breadth-first from the smallest facet of each component; neighbours must run through their edge in opposite directions.
+Components find_components(const std::vector<Index>& origin, const std::vector<Index>& opposite) {
+    const Index n = static_cast<Index>(origin.size() / 3);
+    Components c;
+    c.turned.assign(n, 0);
+    c.facets.reserve(n);
+    std::vector<char> seen(n, 0);
+    for (Index seed = 0; seed < n; seed++) {
+        if (seen[seed]) continue;
+        c.first.push_back(static_cast<Index>(c.facets.size()));
+        seen[seed] = 1;
+        c.facets.push_back(seed);
+        for (std::size_t i = c.facets.size() - 1; i < c.facets.size(); i++) {
+            const Index f = c.facets[i];
+            for (Index h = 3 * f; h < 3 * f + 3; h++) {
+                const Index g = opposite[h] / 3;
+                const bool agrees = origin[h] == origin[next_in_facet(opposite[h])];
+                const char turned = static_cast<char>(agrees ? c.turned[f] : !c.turned[f]);
+                if (!seen[g]) {
+                    seen[g] = 1;
+                    c.turned[g] = turned;
+                    c.facets.push_back(g);
+                } else if (c.turned[g] != turned) {
+                    throw InputError("facets " + std::to_string(std::min(f, g)) + " and " + std::to_string(std::max(f, g)) +
+                                     ": expected a surface with two sides, found one that can't be oriented (a Möbius strip)");
+                }
+            }
+        }
+    }
+    c.first.push_back(n);
+    return c;
+}
+
+// Six times the volume that the component encloses, positive where its facets (turned as `turned` says) face outward.
+// Taken about the component's first vertex, so that a part far from the origin loses no digits.
+double volume6(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c, Index component) {
+    const Vec3 about = points[origin[3 * c.facets[c.first[component]]]];
+    double sum = 0;
+    for (Index i = c.first[component]; i < c.first[component + 1]; i++) {
+        const Index f = c.facets[i];
+        const Vec3 p = points[origin[3 * f]] - about, q = points[origin[3 * f + 1]] - about, r = points[origin[3 * f + 2]] - about;
+        const double v = dot(p, cross(q, r));
+        sum += c.turned[f] ? -v : v;
+    }
+    return sum;
+}
+
+// Tells whether points lie inside one component: counts the facets that a ray along +x crosses. The facets are sorted
+// into a grid over (y, z), so that a query looks at one cell.
+class Locator {
+public:
+    Locator(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c, Index component, const Box& box)
+        : points_(points), origin_(origin), box_(box) {
+        const Index begin = c.first[component], end = c.first[component + 1];
+        while (side_ < 1024 && static_cast<Index>(side_) * side_ < end - begin) side_ *= 2;
+        std::vector<std::vector<Index>> cells(static_cast<std::size_t>(side_) * side_);
+        for (Index i = begin; i < end; i++) {
+            const Index f = c.facets[i];
+            Box b{points[origin[3 * f]], points[origin[3 * f]]};
+            b.add(points[origin[3 * f + 1]]);
+            b.add(points[origin[3 * f + 2]]);
+            for (int y = cell(b.low.y, 1); y <= cell(b.high.y, 1); y++)
+                for (int z = cell(b.low.z, 2); z <= cell(b.high.z, 2); z++) cells[y * side_ + z].push_back(f);
+        }
+        cells_ = std::move(cells);
+    }
+
+    bool contains(const Vec3& p) const {
+        bool inside = false;
+        for (const Index f : cells_[cell(p.y, 1) * side_ + cell(p.z, 2)])
+            if (crosses(f, p)) inside = !inside;
+        return inside;
+    }
+
+private:
+    int cell(double x, int axis) const {
+        const double width = box_.high[axis] - box_.low[axis];
+        const double t = width > 0 ? (x - box_.low[axis]) / width * side_ : 0;
+        return std::clamp(static_cast<int>(t), 0, side_ - 1);
+    }
+
+    // The ray is at y = p.y + 0: an edge is crossed where its ends lie at different sides of p.y, vertices on p.y being
+    // above. Each edge is evaluated from its smaller vertex, so that its two facets agree.   tie: on the edge is below
+    bool edge_above(Index a, Index b, const Vec3& p) const {
+        if (a > b) std::swap(a, b);
+        const Vec3 &q = points_[a], &r = points_[b];
+        const double z = q.z + (r.z - q.z) * ((p.y - q.y) / (r.y - q.y));
+        return z > p.z;
+    }
+
+    bool crosses(Index f, const Vec3& p) const {
+        bool in_projection = false;
+        for (int k = 0; k < 3; k++) {
+            const Index a = origin_[3 * f + k], b = origin_[3 * f + (k + 1) % 3];
+            if ((points_[a].y > p.y) != (points_[b].y > p.y) && edge_above(a, b, p)) in_projection = !in_projection;
+        }
+        if (!in_projection) return false;
+        const Vec3 corner = points_[origin_[3 * f]];
+        const Vec3 n = cross(points_[origin_[3 * f + 1]] - corner, points_[origin_[3 * f + 2]] - corner);
+        // The facet's plane at (p.y, p.z) lies beyond p.x; n.x is not zero, or the projection would be empty.
+        const double above = dot(n, p - corner);
+        return n.x > 0 ? above < 0 : above > 0;
+    }
+
+    const std::vector<Vec3>& points_;
+    const std::vector<Index>& origin_;
+    Box box_;
+    int side_ = 1;
+    std::vector<std::vector<Index>> cells_;
+};
+
+// component -> how many others contain it. Boxes first (sorted along x), then point location. Three facet centres vote,
+// since one may touch the container.
+std::vector<int> nesting_depth(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c) {
+    const Index n = c.count();
+    std::vector<int> depth(n, 0);
+    if (n == 1) return depth;
+    std::vector<Box> box(n);
+    for (Index i = 0; i < n; i++) {
+        box[i].low = box[i].high = points[origin[3 * c.facets[c.first[i]]]];
+        for (Index j = c.first[i]; j < c.first[i + 1]; j++)
+            for (int k = 0; k < 3; k++) box[i].add(points[origin[3 * c.facets[j] + k]]);
+    }
+    std::vector<Index> by_x(n);
+    std::iota(by_x.begin(), by_x.end(), 0);
+    std::sort(by_x.begin(), by_x.end(), [&](Index a, Index b) {   // tie: by index
+        return box[a].low.x < box[b].low.x || (box[a].low.x == box[b].low.x && a < b);
+    });
+    for (Index i = 0; i < n; i++) {
+        const Index outer = by_x[i];
+        std::vector<Index> candidates;
+        // An equal low.x may come before `outer` in the order: step back over those.
+        Index first = i;
+        while (first > 0 && box[by_x[first - 1]].low.x == box[outer].low.x) first--;
+        for (Index j = first; j < n && box[by_x[j]].low.x <= box[outer].high.x; j++)
+            if (by_x[j] != outer && box[by_x[j]].inside(box[outer])) candidates.push_back(by_x[j]);
+        if (candidates.empty()) continue;
+        const Locator locator(points, origin, c, outer, box[outer]);
+        for (const Index inner : candidates) {
+            const Index begin = c.first[inner], last = c.first[inner + 1] - 1;
+            int votes = 0;
+            for (const Index j : {begin, (begin + last) / 2, last}) {
+                const Index* v = &origin[3 * c.facets[j]];
+                votes += locator.contains((points[v[0]] + points[v[1]] + points[v[2]]) * (1.0 / 3));
+            }
+            depth[inner] += votes >= 2;
+        }
+    }
+    return depth;
+}
+
+}  // namespace
+
+Orientation orient(const std::vector<Vec3>& points, const std::vector<Index>& origin, const std::vector<Index>& opposite) {
+    Components c = find_components(origin, opposite);
+    const std::vector<int> depth = nesting_depth(points, origin, c);
+    Orientation result;
+    result.components = c.count();
+    for (Index i = 0; i < c.count(); i++) {
+        const bool cavity = depth[i] % 2 == 1;
+        result.cavities += cavity;
+        const double volume = volume6(points, origin, c, i);
+        if (cavity ? volume > 0 : volume < 0)
+            for (Index j = c.first[i]; j < c.first[i + 1]; j++) c.turned[c.facets[j]] ^= 1;
+        bool all = true;
+        for (Index j = c.first[i]; j < c.first[i + 1] && all; j++) all = c.turned[c.facets[j]];
+        result.turned_components += all;
+    }
+    result.turn = std::move(c.turned);
+    return result;
+}
+
+}  // namespace polylab

@@ -1,0 +1,15 @@
+#include "polylab/polylab.h"
+
+namespace polylab {
+
+TriMesh read_surface(const std::string& path, const FeatureOptions& features) {
+    MeshData data = read_mesh(path);
+    try {
+        if (!data.tets.empty()) data = extract_surface(data).surface;
+        return build_mesh(std::move(data), features);
+    } catch (const InputError& error) {
+        throw error.in(path);
+    }
+}
+
+}  // namespace polylab

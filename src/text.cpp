@@ -1,0 +1,198 @@
+#include "polylab/text.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#if !defined(__cpp_lib_to_chars)
+#error "polylab needs std::from_chars and std::to_chars for double (libstdc++ 11 or later)"
+#endif
+
+namespace polylab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string reason() { return std::strerror(errno); }
+
+struct File {
+    std::FILE* handle;
+    explicit File(std::FILE* f) : handle(f) {}
+    ~File() {
+        if (handle && handle != stdin && handle != stdout) std::fclose(handle);
+    }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    bool close() {
+        std::FILE* f = handle;
+        handle = nullptr;
+        return std::fclose(f) == 0;
+    }
+};
+
+bool write_all(std::FILE* f, std::string_view content) {
+    return std::fwrite(content.data(), 1, content.size(), f) == content.size() && std::fflush(f) == 0;
+}
+
+// A name beside `target` that no file has: fopen's "x" mode decides, so two runs never share one.
+std::FILE* open_beside(const fs::path& target, fs::path& name) {
+    for (int i = 0; i < 1000; i++) {
+        name = target;
+        name += ".part" + std::to_string(i);
+        if (std::FILE* f = std::fopen(name.c_str(), "wbx")) return f;
+        if (errno != EEXIST) break;
+    }
+    return nullptr;
+}
+
+// `path` with its symbolic links resolved, also where the last link points to a file that is not there yet.
+fs::path link_target(fs::path path) {
+    std::error_code error;
+    for (int links = 0; links < 40 && fs::is_symlink(path, error); links++) {
+        const fs::path to = fs::read_symlink(path, error);
+        path = to.is_absolute() ? to : path.parent_path() / to;
+    }
+    return path;
+}
+
+}  // namespace
+
+std::string read_file(const std::string& path) {
+    std::error_code error;
+    if (path != "-" && fs::is_directory(path, error)) throw InputError(path, 0, "expected a file, found a directory");
+    const File file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"));
+    if (!file.handle) throw InputError(path, 0, "can't be read: " + reason());
+    std::string content;
+    const auto size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
+    if (!error) content.reserve(size + 1);
+    std::size_t got = 1;
+    while (got > 0) {
+        const std::size_t end = content.size();
+        content.resize(std::max(content.capacity(), end + 65536));
+        got = std::fread(&content[end], 1, content.size() - end, file.handle);
+        content.resize(end + got);
+    }
+    if (std::ferror(file.handle)) throw InputError(path, 0, "can't be read: " + reason());
+    return content;
+}
+
+void write_file(const std::string& path, std::string_view content) {
+    const auto refuse = [&](const std::string& why) { throw InputError(path, 0, "can't be written: " + why); };
+    if (path == "-") {
+        if (!write_all(stdout, content)) refuse(reason());
+        return;
+    }
+    std::error_code error;
+    const fs::path target = link_target(path);
+    const fs::file_status status = fs::status(target, error);
+    if (fs::is_directory(status)) refuse("it is a directory");
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        File file(std::fopen(path.c_str(), "wb"));
+        if (!file.handle || !write_all(file.handle, content) || !file.close()) refuse(reason());
+        return;
+    }
+    // A file that its owner made read-only stays as it is, although renaming over it would be allowed.
+    if (fs::exists(status)) {
+        const File file(std::fopen(target.c_str(), "r+b"));
+        if (!file.handle) refuse(reason());
+    }
+    fs::path part;
+    File file(open_beside(target, part));
+    if (!file.handle) refuse(reason());
+    if (!write_all(file.handle, content) || !file.close()) {
+        const std::string why = reason();
+        fs::remove(part, error);
+        refuse(why);
+    }
+    if (fs::exists(status)) fs::permissions(part, status.permissions(), error);
+    fs::rename(part, target, error);
+    if (error) {
+        std::error_code ignored;
+        fs::remove(part, ignored);
+        refuse(error.message());
+    }
+}
+
+void append(std::string& out, double x) {
+    char buffer[32];
+    out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, x).ptr);
+}
+
+void append(std::string& out, Index i) {
+    char buffer[16];
+    out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, i).ptr);
+}
+
+void Scanner::skip_blanks() {
+    for (; at_ < text_.size(); at_++) {
+        const char c = text_[at_];
+        if (c == '\n' || c == '\r') return;
+        if (c == '#') {
+            while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') at_++;
+            return;
+        }
+        if (c != ' ' && c != '\t' && c != '\v' && c != '\f') return;
+    }
+}
+
+std::string_view Scanner::token_in_line() {
+    skip_blanks();
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && !std::strchr(" \t\v\f\r\n#", text_[at_])) at_++;
+    // strchr finds the terminator too: a zero byte is an ordinary (wrong) character.
+    while (at_ == begin && at_ < text_.size() && text_[at_] == '\0') at_++;
+    return text_.substr(begin, at_ - begin);
+}
+
+std::string_view Scanner::token() {
+    while (true) {
+        const std::string_view t = token_in_line();
+        if (!t.empty() || at_ >= text_.size()) return t;
+        next_line();
+    }
+}
+
+bool Scanner::next_line() {
+    while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') at_++;
+    if (at_ >= text_.size()) return false;
+    at_ += text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n' ? 2 : 1;
+    line_++;
+    return true;
+}
+
+double Scanner::to_number(std::string_view token, const char* what) const {
+    std::string_view digits = token;
+    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+    double x = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
+    if (error == std::errc::result_out_of_range && end == digits.data() + digits.size()) {
+        // Too small for a double is zero (gmsh writes such noise); too large is an error.
+        const std::size_t e = digits.find_first_of("eE");
+        if (e != std::string_view::npos && e + 1 < digits.size() && digits[e + 1] == '-') return 0;
+    }
+    if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(x)) fail(what, token);
+    return x;
+}
+
+Index Scanner::to_integer(std::string_view token, const char* what) const {
+    std::string_view digits = token;
+    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+    Index i = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), i);
+    if (error != std::errc() || end != digits.data() + digits.size()) fail(what, token);
+    return i;
+}
+
+void Scanner::fail(const std::string& expected, std::string_view found) const {
+    std::string shown;
+    for (const char c : found.substr(0, 40)) shown += c >= 32 && c < 127 ? c : '?';
+    if (found.size() > 40) shown += "…";
+    throw InputError(file_, line_, "expected " + expected + ", found " + (found.empty() ? "the end of the " + std::string(at_ >= text_.size() ? "file" : "line") : "'" + shown + "'"));
+}
+
+}  // namespace polylab

@@ -1,0 +1,15 @@
+#!/bin/sh
+# check_lists.sh: Makefile and CMakeLists.txt name every source in src/ and no other.
+cd "$(dirname "$0")/.." || exit 2
+status=0
+on_disk=$(for file in src/*.cpp; do basename "$file" .cpp; done | grep -v '^main$' | sort)
+in_make=$(sed -n 's/^MODULES *= *//p' Makefile | tr ' ' '\n' | sort)
+in_cmake=$(sed -n 's|^ *src/\([a-z_0-9]*\)\.cpp)*$|\1|p' CMakeLists.txt | sort)
+for list in make cmake; do
+    eval "listed=\$in_$list"
+    for module in $(printf '%s\n' "$on_disk" "$listed" | sort | uniq -u); do
+        echo "src/$module.cpp is only on disk or only in the list of $list" >&2
+        status=1
+    done
+done
+exit $status
