@@ -2,7 +2,7 @@
 
 # Library sources src/NAME.cpp in the order of their dependence; src/main.cpp is the program.
 MODULES = costs orientation mesh text io tet_surface maxflow alpha_expansion initial_labeling labeling_graph turning_points json statistics \
-          explain diff polylab cli
+          explain diff polylab cli state paths validity_operators quality_operators routines
 TESTS = $(wildcard tests/*.cpp)
 
 # To choose on the command line: config=release|debug|sanitize|coverage  werror=1  builddir=DIR  verbose=1  CXX=…  CXXFLAGS=…
@@ -75,9 +75,11 @@ $(objects)/commit: FORCE
 
 -include $(library_objects:.o=.d) $(test_objects:.o=.d) $(objects)/src/main.d
 
+demo_command = $(program) label $(demo_model) -o $(out)/demo/labels.txt --stats $(out)/demo/stats.json --verbose
+# Status 1 of the program: the labels are written, but are not valid (the summary says so).
 demo: $(program)
 	@mkdir -p $(out)/demo
-	$(program) label $(demo_model) -o $(out)/demo/labels.txt --stats $(out)/demo/stats.json --verbose
+	@echo '$(demo_command)'; $(demo_command) || test $$? -eq 1
 
 test: $(tests) $(program)
 	@$(tests)
@@ -115,12 +117,14 @@ install: $(program)
 	install -m 644 include/polylab/*.h "$(DESTDIR)$(PREFIX)/include/polylab"
 
 format:
-	clang-format --dry-run -Werror $(sources)
+	@clang-format --dry-run -Werror $(sources)
 format-fix:
-	clang-format -i $(sources)
+	@clang-format -i $(sources)
 
-tidy:
-	clang-tidy --quiet $(MODULES:%=src/%.cpp) src/main.cpp -- -std=c++17 -Iinclude
+tidy: $(MODULES:%=tidy-%) tidy-main
+tidy-%:
+	@echo '  $@'
+	@clang-tidy --quiet src/$*.cpp -- -std=c++17 -Iinclude
 
 clean:
 	rm -rf $(builddir)

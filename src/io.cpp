@@ -56,6 +56,7 @@ private:
 
     // `7`, `7/1`, `7//2`, `7/1/2`; -1 is the vertex read last. Vertices may follow the facets that use them.
     Index read_index(std::string_view token) {
+        if (!token.empty() && token[0] == '/') in_.fail("a vertex index", token);
         const Index i = in_.to_integer(token.substr(0, token.find('/')), "a vertex index");
         if (i == 0 || i < -vertices()) throw InputError(in_.file(), in_.line(), range(i));
         const Index v = i > 0 ? i - 1 : vertices() + i;
@@ -126,8 +127,8 @@ public:
     MeshData read() {
         std::string_view keyword = in_.token();
         if (keyword != "MeshVersionFormatted") in_.fail("'MeshVersionFormatted'", keyword);
-        const Index version = in_.integer("a version from 1 to 4");
-        if (version < 1 || version > 4) in_.fail("a version from 1 to 4", std::to_string(version));
+        const Index version = in_.integer("a version from 1 to 3");
+        if (version < 1 || version > 3) in_.fail("a version from 1 to 3", std::to_string(version));
         for (keyword = in_.token(); !keyword.empty(); keyword = read_block(keyword)) {}
         if (!vertices_read_) in_.fail("'Vertices'", "");
         for (const Use& use : largest_)
@@ -295,8 +296,10 @@ MeshData read_ascii_stl(std::string_view text, const std::string& name) {
         const std::string_view token = in.token();
         if (token != word) in.fail(std::string("'") + word + "'", token);
     };
-    for (std::string_view token = in.token(); !token.empty(); token = in.token()) {
+    bool open = true;   // a solid is begun and not ended
+    for (std::string_view token = in.token(); !token.empty() || open; token = in.token()) {
         if (token == "solid" || token == "endsolid") {
+            open = token == "solid";
             while (!in.token_in_line().empty()) {}   // the name
         } else if (token == "facet") {
             expect("normal");
@@ -394,7 +397,7 @@ Labeling read_labels_text(std::string_view text, const std::string& name, Index 
     for (std::string_view token = in.token(); !token.empty(); token = in.token()) {
         const Index l = in.to_integer(token, what);
         if (l < (allow_free ? kNoLabel : 0) || l >= kLabels) in.fail(what, token);
-        if (static_cast<Index>(labels.size()) == facets) in.fail(std::to_string(facets) + " labels, one per facet", "more");
+        if (static_cast<Index>(labels.size()) == facets) throw InputError(name, in.line(), "expected " + std::to_string(facets) + " labels, one per facet, found more");
         labels.push_back(static_cast<Label>(l));
     }
     if (static_cast<Index>(labels.size()) < facets)

@@ -4,6 +4,7 @@
 #include "polylab/diff.h"
 #include "polylab/explain.h"
 #include "polylab/polylab.h"
+#include "polylab/routines.h"
 
 #include <chrono>
 #include <cstdio>
@@ -124,6 +125,7 @@ int run_label(const Arguments& arguments) {
         labels = naive_labeling(mesh);
     else
         labels = graphcut_labeling(mesh, initial);
+    if (method == "full") labels = run_routines(mesh, std::move(labels)).labels;
     const Judged result = judge(mesh, labels);
     if (arguments.has("--stats")) write_file(arguments.get("--stats"), statistics_json(result.statistics, explain(mesh, result.graph)));
     write_file(output, labels_text(labels));

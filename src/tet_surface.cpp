@@ -28,8 +28,11 @@ void check_tets(const MeshData& data) {
         const std::string tet = "tetrahedron " + std::to_string(i / 4);
         if (v < 0 || v >= vertices) throw InputError(tet + ": expected vertices 0.." + std::to_string(vertices - 1) + ", found " + std::to_string(v));
         for (std::size_t j = i - i % 4; j < i; j++)
-            if (data.tets[j] == v) throw InputError(tet + ": expected four vertices, found vertex " + std::to_string(v) + " twice");
+            if (data.tets[j] == v)
+                throw InputError(tet + ": expected four vertices, found vertex " + std::to_string(v) + " twice");
     }
+    for (const Index v : data.edges)
+        if (v < 0 || v >= vertices) throw InputError("feature edges: expected vertices 0.." + std::to_string(vertices - 1) + ", found " + std::to_string(v));
 }
 
 // Facet ids of the facets that only one tetrahedron has, in increasing order. A counting sort by the smallest vertex,
@@ -138,10 +141,11 @@ SurfaceMap read_surface_map_text(std::string_view text, const std::string& name)
         const std::string_view token = in.token();
         const Index id = in.to_integer(token, what.c_str());
         if (id < 0 || id >= 4 * map.tets) in.fail(what, token);
+        if (i > 0 && id <= map.tet_facet.back()) in.fail("increasing numbers", token);
         map.tet_facet.push_back(id);
     }
     const std::string_view token = in.token();
-    if (!token.empty()) in.fail(std::to_string(triangles) + " triangles", "more");
+    if (!token.empty()) throw InputError(name, in.line(), "expected " + std::to_string(triangles) + " triangles, found more");
     return map;
 }
 

@@ -60,6 +60,18 @@ fs::path link_target(fs::path path) {
     return path;
 }
 
+// Whether a decimal number, not zero, is below one in magnitude.
+bool below_one(std::string_view digits) {
+    const std::size_t e = std::min(digits.find_first_of("eE"), digits.size());
+    const std::size_t point = std::min(digits.find('.'), e), first = digits.find_first_of("123456789");
+    // The power of ten of the first digit that counts.
+    const std::int64_t power = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first) - (first < point);
+    std::int64_t exponent = 0;
+    for (const char c : digits.substr(e))
+        if (c >= '0' && c <= '9' && exponent < 1000000000000) exponent = 10 * exponent + (c - '0');
+    return power + (digits.substr(e).find('-') == 1 ? -exponent : exponent) < 0;
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
@@ -89,6 +101,7 @@ void write_file(const std::string& path, std::string_view content) {
     }
     std::error_code error;
     const fs::path target = link_target(path);
+    if (fs::is_symlink(target, error)) refuse("too many symbolic links");
     const fs::file_status status = fs::status(target, error);
     if (fs::is_directory(status)) refuse("it is a directory");
     if (fs::exists(status) && !fs::is_regular_file(status)) {
@@ -171,9 +184,7 @@ double Scanner::to_number(std::string_view token, const char* what) const {
     double x = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
     if (error == std::errc::result_out_of_range && end == digits.data() + digits.size()) {
-        // Too small for a double is zero (gmsh writes such noise); too large is an error.
-        const std::size_t e = digits.find_first_of("eE");
-        if (e != std::string_view::npos && e + 1 < digits.size() && digits[e + 1] == '-') return 0;
+        if (below_one(digits)) return 0;   // gmsh writes such noise; too large a number is an error
     }
     if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(x)) fail(what, token);
     return x;

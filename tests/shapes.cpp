@@ -58,7 +58,7 @@ Mapped mapped(const MeshData& data, const std::array<Label, 3>& image_of_axis, b
     return m;
 }
 
-}  // namespace
+}   // namespace
 
 std::vector<Index> Lcg::permutation(Index n) {
     std::vector<Index> p(n);
@@ -258,8 +258,8 @@ MeshData refined(const MeshData& data) {
 
 std::vector<Index> creases(const MeshData& data) {
     struct Side {
-        Vec3 normal;   // of the first facet met
-        bool forward;  // whether it runs from the smaller vertex to the larger one
+        Vec3 normal;    // of the first facet met
+        bool forward;   // whether it runs from the smaller vertex to the larger one
         bool told;
     };
     std::map<std::pair<Index, Index>, Side> sides;
@@ -331,4 +331,4 @@ Mapped mirrored(const MeshData& data, int axis) {
     return mapped(data, image, true);
 }
 
-}  // namespace polylab::shapes
+}   // namespace polylab::shapes

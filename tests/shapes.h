@@ -33,10 +33,10 @@ private:
 
 // ---- shapes ----
 
-MeshData tetrahedron();                  // corner at the origin, the other vertices at distance 1 along X, Y, Z
-MeshData octahedron();                   // vertices at distance 1 along +X -X +Y -Y +Z -Z, in this order
-MeshData box(int nx, int ny, int nz);    // from the origin; squares of side 1, 2 facets each; facets in the order of labels:
-MeshData cube(int n);                    // facet f of cube(n) faces direction(f / (2 n n))
+MeshData tetrahedron();                 // corner at the origin, the other vertices at distance 1 along X, Y, Z
+MeshData octahedron();                  // vertices at distance 1 along +X -X +Y -Y +Z -Z, in this order
+MeshData box(int nx, int ny, int nz);   // from the origin; squares of side 1, 2 facets each; facets in the order of labels:
+MeshData cube(int n);                   // facet f of cube(n) faces direction(f / (2 n n))
 
 // The surface of the union of unit cells [x,x+1] x [y,y+1] x [z,z+1]. Facets cell by cell, 2 per free side in the order of
 // labels. Cells that share only a vertex give one vertex with two fans; cells that share only an edge an edge with four
@@ -54,26 +54,26 @@ MeshData voxels(const std::vector<Cell>& cells);
 MeshData l_shape();
 MeshData stair(int steps);
 MeshData frame();
-MeshData hollow_box();               // 3 x 3 x 3 with a cavity of one cell
-MeshData two_cubes_at_a_vertex();    // two components, two fans at their common vertex (1,1,1)
-MeshData pinched_ring();             // a bent bar, one component, whose ends touch in the vertex (1,1,2)
+MeshData hollow_box();              // 3 x 3 x 3 with a cavity of one cell
+MeshData two_cubes_at_a_vertex();   // two components, two fans at their common vertex (1,1,1)
+MeshData pinched_ring();            // a bent bar, one component, whose ends touch in the vertex (1,1,2)
 
-// A convex polygon (z = 0, counter-clockwise from above) extruded along +Z. Vertices: polygon below, polygon above.
-// Facets: two per side, first those from point 0 to point 1; then the lower face, then the upper one.
+// A polygon (z = 0, counter-clockwise from above, all of it seen from point 0) extruded along +Z. Vertices: polygon below,
+// polygon above. Facets: two per side, first those from point 0 to point 1; then the lower face, then the upper one.
 MeshData prism(const std::vector<Vec3>& polygon, int height);
 MeshData triangular_prism(int a, int b, int height);   // polygon (0,0) (a,0) (0,b): the first slanted facets are 2 and 3
-MeshData pyramid(int n);             // n-gon of radius 1000, apex at height 1000: facets 0..n-1 at the sides, then the base
+MeshData pyramid(int n);   // n-gon of radius 1000, apex at height 1000: facets 0..n-1 at the sides, then the base
 
 // ---- unusual ones ----
 
-MeshData pillow();                          // two facets on the same three vertices, facing opposite ways
-MeshData tetrahedron_with_flat_facet();     // facet 4 has no area: vertex 4 is the middle of its edge 0-1
-MeshData mobius_strip(int n);               // 2n facets, not closed
-MeshData projective_plane();                // closed, 10 facets, one side only
+MeshData pillow();                        // two facets on the same three vertices, facing opposite ways
+MeshData tetrahedron_with_flat_facet();   // facet 4 has no area: vertex 4 is the middle of its edge 0-1
+MeshData mobius_strip(int n);             // 2n facets, not closed
+MeshData projective_plane();              // closed, 10 facets, one side only
 
 // ---- from shape to shape ----
 
-void append(MeshData& data, const MeshData& other);              // vertex numbers of `other` shifted
+void append(MeshData& data, const MeshData& other);   // vertex numbers of `other` shifted
 MeshData joined(MeshData a, const MeshData& b);
 MeshData moved(MeshData data, const Vec3& by);
 MeshData scaled(MeshData data, double by);
@@ -109,4 +109,4 @@ struct Mapped {
 Mapped rotated_axes(const MeshData& data, int i);   // i = 0..23, the rotations; 0 changes nothing
 Mapped mirrored(const MeshData& data, int axis);    // coordinate `axis` negated
 
-}  // namespace polylab::shapes
+}   // namespace polylab::shapes

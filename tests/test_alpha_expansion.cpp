@@ -68,7 +68,7 @@ bool expand(const PottsEnergy& energy, Label alpha, Labeling& labels) {
     return polylab::expand(energy, network, alpha, labels);
 }
 
-}  // namespace
+}   // namespace
 
 TEST_CASE("alpha expansion: the energy is data plus weights of edges with different labels") {
     PottsEnergy energy;
@@ -155,7 +155,8 @@ TEST_CASE("alpha expansion: cycles are moves towards 0 to 5 in this order") {
         const Index n = 1 + random.below(6);
         const PottsEnergy energy = random_energy(random, n, random.below(1 + 3 * n), 5, 5);
         const Labeling start = round % 2 == 0 ? Labeling(n, 0) : random_labels(random, n);
-        for (int cycles = 0; cycles < 4; cycles++) CHECK(alpha_expansion(energy, start, cycles) == naive_expansion(energy, start, cycles));
+        for (int cycles = 0; cycles < 4; cycles++)
+            CHECK(alpha_expansion(energy, start, cycles) == naive_expansion(energy, start, cycles));
         CHECK(alpha_expansion(energy, start) == naive_expansion(energy, start, 2));
     }
 }

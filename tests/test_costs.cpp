@@ -14,15 +14,12 @@ const double kPi = std::acos(-1.0);
 double cos_degrees(double angle) { return std::cos(angle * kPi / 180); }
 
 // Out of line and on values that are unknown to the compiler, so that it can't be folded.
-#if defined(__GNUC__)
-__attribute__((noinline))
-#endif
-double multiply_add(const volatile double* v) {
+[[gnu::noinline]] double multiply_add(const volatile double* v) {
     const double a = v[0], b = v[1], c = v[2];
     return a * b + c;
 }
 
-}  // namespace
+}   // namespace
 
 TEST_CASE("costs: the compiler does not contract a * b + c") {
     // (1 + u)(1 - u) = 1 - u^2 rounds to 1 for u = 2^-30; a fused multiply-add would leave -2^-60.
@@ -38,7 +35,7 @@ TEST_CASE("costs: bell and well at known angles") {
         double angle;
         int well, bell;
     };
-    const Row table[] = {{0, 0, 100},  {10, 0, 99},  {20, 13, 97}, {30, 60, 86}, {40, 148, 64}, {45, 197, 50},
+    const Row table[] = {{0, 0, 100},   {10, 0, 99},   {20, 13, 97}, {30, 60, 86}, {40, 148, 64}, {45, 197, 50},
                          {50, 239, 36}, {60, 286, 13}, {70, 298, 3}, {75, 299, 1}, {90, 299, 0},  {180, 300, 0}};
     for (const Row& row : table) {
         CAPTURE(row.angle);
@@ -79,8 +76,8 @@ TEST_CASE("costs: angles between vectors do not depend on their lengths") {
         CHECK(angle_cost(x, x) == 0);
         CHECK(angle_cost(x, y) == 1570796);
         CHECK(angle_cost(x, -x) == 3141593);
-        CHECK(angle_cost(x, {1, 1, 0}) == 785398);       // pi / 4 = 0.7853981634
-        CHECK(angle_cost({-1, 0, 1}, x) == 2356194);     // 3 pi / 4 = 2.3561944902
+        CHECK(angle_cost(x, {1, 1, 0}) == 785398);     // pi / 4 = 0.7853981634
+        CHECK(angle_cost({-1, 0, 1}, x) == 2356194);   // 3 pi / 4 = 2.3561944902
         CHECK(angle_cost(x, Vec3{}) == 0);
         CHECK(angle_cost(Vec3{}, x) == 0);
     }

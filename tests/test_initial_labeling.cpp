@@ -31,7 +31,7 @@ const double kHalf = std::sqrt(0.5);
 // A box with one edge cut off at 45 degrees: sides 0..4 face -Y, +X, (1,1,0), +Y, -X.
 MeshData chamfered() { return shapes::prism({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 2, 0}}, 2); }
 
-}  // namespace
+}   // namespace
 
 TEST_CASE("initial labeling: naive labels are the closest directions") {
     CHECK(naive_labeling(build_mesh(shapes::cube(3))) == cube_labels(3));
@@ -88,7 +88,8 @@ TEST_CASE("initial labeling: facets at 45 degrees are tilted") {
     const std::vector<char> tilt = facets_to_tilt(build_mesh(shapes::triangular_prism(3, 3, 1)), 1e-9);
     CHECK(tilt == std::vector<char>{0, 0, 1, 1, 0, 0, 0, 0});
     const double t = std::sqrt(1.0 / 3);
-    const TriMesh mesh = facets_with_normals({{kHalf, kHalf, 0}, {-kHalf, 0, kHalf}, {0, -kHalf, -kHalf}, {t, -t, t}, {1, 0, 0}, {0.6, 0, 0.8}, {-0.8, 0.6, 0}});
+    const TriMesh mesh = facets_with_normals(
+        {{kHalf, kHalf, 0}, {-kHalf, 0, kHalf}, {0, -kHalf, -kHalf}, {t, -t, t}, {1, 0, 0}, {0.6, 0, 0.8}, {-0.8, 0.6, 0}});
     CHECK(facets_to_tilt(mesh, 1e-9) == std::vector<char>{1, 1, 1, 1, 0, 0, 0});
     // The third largest component has no say.
     CHECK(facets_to_tilt(facets_with_normals({{0.2, 0.2, std::sqrt(0.92)}}), 1e-9) == std::vector<char>{0});
@@ -131,7 +132,7 @@ TEST_CASE("initial labeling: costs of a label and of a border") {
     CHECK(data_cost({0, 1, 0}, 2, 3) == 0);
     CHECK(data_cost({0, 1, 0}, 3, 3) == 300);
     CHECK(data_cost({0, 1, 0}, 0, 3) == 299);
-    CHECK(data_cost(n, 5, 1) == 39);     // 39.35
+    CHECK(data_cost(n, 5, 1) == 39);         // 39.35
     CHECK(data_cost(n, 5, 1000) == 39346);   // 39346.93
     CHECK(data_cost(n, 5, 0) == 0);
     // 100 exp(-((n.m - 1) / 0.25)^2 / 2): n.m = 0.75: 60.65; n.m = 0.5: 100 exp(-2) = 13.53; n.m = 0: 0.03
@@ -169,9 +170,9 @@ TEST_CASE("initial labeling: energies of a cube counted by hand") {
     const TriMesh mesh = build_mesh(shapes::cube(1));
     const PottsEnergy energy = labeling_energy(mesh);
     Labeling labels = cube_labels(1);
-    CHECK(energy(labels) == 0);                                        // every border is a right angle
+    CHECK(energy(labels) == 0);   // every border is a right angle
     CHECK(energy(Labeling(12, 0)) == 2 * 0 + 2 * 300 + 8 * 299);
-    labels[8] = 0;                                                     // one of two facets on top: its data, one flat border
+    labels[8] = 0;   // one of two facets on top: its data, one flat border
     CHECK(energy(labels) == 299 + 100);
     labels[9] = 5;
     CHECK(energy(labels) == 299 + 300 + 100);
@@ -181,7 +182,7 @@ TEST_CASE("initial labeling: energies of a cube counted by hand") {
     options.compactness = 2;
     labels = cube_labels(1);
     labels[8] = 0;
-    CHECK(labeling_energy(mesh, options)(labels) == 999 + 200);        // 1000 (1 - exp(-12.5)) = 999.996
+    CHECK(labeling_energy(mesh, options)(labels) == 999 + 200);   // 1000 (1 - exp(-12.5)) = 999.996
 }
 
 TEST_CASE("initial labeling: a facet without area has neither preference nor border") {
@@ -255,7 +256,8 @@ TEST_CASE("initial labeling: a ridge has labels of its own until compactness out
     //  4 |          '>+
     //  3 |        +'       8
     //  0 +--------+       10
-    const TriMesh mesh = build_mesh(shapes::prism({{0, 0, 0}, {8, 0, 0}, {8, 3, 0}, {10, 4, 0}, {8, 5, 0}, {8, 8, 0}, {0, 8, 0}}, 1));
+    const std::vector<Vec3> contour = {{0, 0, 0}, {8, 0, 0}, {8, 3, 0}, {10, 4, 0}, {8, 5, 0}, {8, 8, 0}, {0, 8, 0}};
+    const TriMesh mesh = build_mesh(shapes::prism(contour, 1));
     Labeling expected = {3, 3, 0, 0, 3, 3, 2, 2, 0, 0, 2, 2, 1, 1, 5, 5, 5, 5, 5, 4, 4, 4, 4, 4};
     InitialOptions options;
     CHECK(graphcut_labeling(mesh, options) == expected);
@@ -266,11 +268,32 @@ TEST_CASE("initial labeling: a ridge has labels of its own until compactness out
     CHECK(graphcut_labeling(mesh, options) == expected);
 }
 
+TEST_CASE("initial labeling: graph-cut is two cycles of expansion, from +X everywhere") {
+    std::vector<Vec3> decagon = shapes::pyramid(10).points;
+    decagon.pop_back();   // the apex
+    InitialOptions options;
+    options.compactness = 3;
+    options.fidelity = 1;
+    const TriMesh column = build_mesh(shapes::prism(decagon, 100));
+    PottsEnergy energy = labeling_energy(column, options);
+    const Labeling start(column.facets(), 0);
+    REQUIRE(alpha_expansion(energy, start, 1) != alpha_expansion(energy, start, 2));   // it needs the second cycle
+    CHECK(graphcut_labeling(column, options) == alpha_expansion(energy, start, 2));
+
+    options.fidelity = 3;
+    const TriMesh tent = build_mesh(shapes::pyramid(5));
+    energy = labeling_energy(tent, options);
+    const Labeling from_x = alpha_expansion(energy, Labeling(tent.facets(), 0), 2);
+    REQUIRE(from_x != alpha_expansion(energy, naive_labeling(tent), 2));   // the start matters
+    CHECK(graphcut_labeling(tent, options) == from_x);
+}
+
 TEST_CASE("initial labeling: graph-cut labels do not depend on the numbering") {
     shapes::Lcg random(15);
     MeshData round_one = shapes::octahedron();   // normals at equal distance to three labels: ties everywhere
     for (int i = 0; i < 2; i++) round_one = shapes::refined(round_one);
-    for (const MeshData& data : {round_one, shapes::pyramid(9), shapes::pyramid(30), chamfered(), shapes::refined(shapes::tetrahedron())}) {
+    const MeshData fine_tetrahedron = shapes::refined(shapes::tetrahedron());
+    for (const MeshData& data : {round_one, fine_tetrahedron, shapes::pyramid(9), shapes::pyramid(30), chamfered()}) {
         const Labeling labels = graphcut_labeling(build_mesh(data));
         for (int round = 0; round < 5; round++) {
             const shapes::Renumbered r = shapes::renumbered(data, random);

@@ -97,7 +97,7 @@ bool is_feature(const TriMesh& mesh, Index from, Index to) {
     return mesh.feature[h];
 }
 
-}  // namespace
+}   // namespace
 
 TEST_CASE("mesh: half-edge steps are inverse to each other") {
     for (const Named& shape : all_shapes()) {
@@ -200,7 +200,8 @@ TEST_CASE("mesh: normals of a cube are the exact directions of the labels") {
 TEST_CASE("mesh: the mean edge counts every edge once") {
     // 12 edges of length 1 and 6 diagonals.
     CHECK(build_mesh(shapes::cube(1)).mean_edge == doctest::Approx((12 + 6 * std::sqrt(2.0)) / 18).epsilon(1e-14));
-    CHECK(build_mesh(shapes::scaled(shapes::tetrahedron(), 4)).mean_edge == doctest::Approx(2 * (1 + std::sqrt(2.0))).epsilon(1e-14));
+    const TriMesh mesh = build_mesh(shapes::scaled(shapes::tetrahedron(), 4));   // three edges of 4, three diagonals
+    CHECK(mesh.mean_edge == doctest::Approx(2 * (1 + std::sqrt(2.0))).epsilon(1e-14));
 }
 
 TEST_CASE("mesh: a surface that is not closed is refused, naming an open edge") {
@@ -378,7 +379,7 @@ TEST_CASE("mesh: a named edge is a feature edge from an angle of 0.5 rad") {
 
 TEST_CASE("mesh: an angle of exactly the threshold is a feature edge") {
     const MeshData data = shapes::creased(shapes::cube(2));
-    CHECK(build_mesh(data, {false, 0.0}).features_kept == 24);    // right angles: the cosine is exactly 0
+    CHECK(build_mesh(data, {false, 0.0}).features_kept == 24);   // right angles: the cosine is exactly 0
     CHECK(build_mesh(data, {false, -1e-9}).features_kept == 0);
 }
 
@@ -404,13 +405,14 @@ TEST_CASE("mesh: feature edges given twice count once, those off the surface are
     while (!(plain.normal[plain.left(flat)] == plain.normal[plain.right(flat)])) flat++;
     const Index a = plain.from(sharp), b = plain.to(sharp), far = plain.vertices();
     data.points.push_back({9, 9, 9});
-    // Sharp: three times in two directions; between coplanar facets; to a vertex without facet; from a vertex to itself.
-    data.edges = {a, b, b, a, plain.from(flat), plain.to(flat), a, b, far, a, a, a};
+    // Sharp: three times in two directions; between coplanar facets; off the surface: to a vertex without facet, twice, and
+    // from a vertex to itself.
+    data.edges = {a, b, b, a, plain.from(flat), plain.to(flat), a, b, far, a, a, far, a, a};
     const TriMesh mesh = build_mesh(data);
     validate(mesh);
-    CHECK(mesh.features_given == 6);
+    CHECK(mesh.features_given == 7);
     CHECK(mesh.features_kept == 1);
-    CHECK(mesh.features_off == 2);
+    CHECK(mesh.features_off == 3);
     for (Index h = 0; h < mesh.halfedges(); h++) CHECK(mesh.feature[h] == (mesh.edge(h) == mesh.edge(sharp)));
 }
 

@@ -6,7 +6,8 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
+#include <ctime>
+#include <utility>
 
 using namespace polylab;
 using shapes::append;
@@ -15,6 +16,14 @@ using shapes::joined;
 using shapes::moved;
 using shapes::scaled;
 using shapes::turned;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define POLYLAB_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer)
+#define POLYLAB_SANITIZED
+#endif
+#endif
 
 namespace {
 
@@ -37,11 +46,16 @@ void check_becomes(const MeshData& data, const MeshData& expected, Index compone
     CHECK(again.turned_components == 0);
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+// Of processor time, so that a busy machine does not matter; builds for debugging may take their time.
+double seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
-}  // namespace
+#if defined(__OPTIMIZE__) && !defined(POLYLAB_SANITIZED)
+constexpr double kPatience = 1;
+#else
+constexpr double kPatience = 20;
+#endif
+
+}   // namespace
 
 TEST_CASE("orientation: an inward cube is turned") {
     check_becomes(cube(2), cube(2), 1, 0, 0);
@@ -141,28 +155,40 @@ TEST_CASE("orientation: a part that fills a notch or a hole is no cavity") {
         }
 }
 
-TEST_CASE("orientation: a cavity may touch the wall") {
-    // The inner box has one side in a side of the outer cube.
-    for (int i = 0; i < 24; i++) {
+TEST_CASE("orientation: a part given twice is not inside of itself") {
+    shapes::Lcg random(16);
+    for (int i = 0; i < 20; i++) {
         CAPTURE(i);
-        const MeshData right = shapes::rotated_axes(joined(cube(6), turned(moved(cube(2), {0, 2, 2}))), i).data;
-        check_becomes(right, right, 2, 1, 0);
-        check_becomes(turned(right), right, 2, 1, 2);
+        const MeshData data = shapes::renumbered(joined(cube(1), cube(1)), random).data;
+        check_becomes(data, data, 2, 0, 0);
     }
 }
 
+TEST_CASE("orientation: a cavity may touch the wall") {
+    // The inner box has one side in a side of the outer cube.
+    const MeshData outer = cube(6), inner = turned(moved(cube(2), {0, 2, 2}));
+    for (const MeshData& data : {joined(outer, inner), joined(inner, outer)})
+        for (int i = 0; i < 24; i++) {
+            CAPTURE(i);
+            const MeshData right = shapes::rotated_axes(data, i).data;
+            check_becomes(right, right, 2, 1, 0);
+            check_becomes(turned(right), right, 2, 1, 2);
+        }
+}
+
 TEST_CASE("orientation: thousands of components take less than a second") {
-    // A big box, and in it a lattice of small cubes: with many in one layer, then with as many along X as across.
+    // A big box of many facets, and in it a lattice of small cubes: as many along X as across, then all in one layer.
     const int sizes[][3] = {{20, 20, 20}, {1, 64, 64}};
     for (const auto& size : sizes) {
         const Index count = size[0] * size[1] * size[2];
-        MeshData data = moved(shapes::box(2 * size[0] + 1, 2 * size[1] + 1, 2 * size[2] + 1), {-1, -1, -1});
+        MeshData data = shapes::refined(shapes::box(2 * size[0] + 1, 2 * size[1] + 1, 2 * size[2] + 1));
+        data = moved(scaled(std::move(data), 0.5), {-1, -1, -1});
         const MeshData small = cube(1);
         for (int i = 0; i < count; i++)
             append(data, moved(small, {2.0 * (i % size[0]), 2.0 * (i / size[0] % size[1]), 2.0 * (i / size[0] / size[1])}));
-        const auto start = std::chrono::steady_clock::now();
+        const double start = seconds();
         const TriMesh mesh = build_mesh(data);
-        CHECK(seconds_since(start) < 1);
+        CHECK(seconds() - start < kPatience);
         CHECK(mesh.components == count + 1);
         CHECK(mesh.cavities == count);
         CHECK(mesh.turned_components == count);
@@ -176,7 +202,7 @@ TEST_CASE("orientation: a component without volume stays as it is") {
     check_becomes(turned(right), turned(right), 1, 0, 0);
     const MeshData beside = joined(right, moved(cube(1), {5, 5, 5}));
     check_becomes(beside, beside, 2, 0, 0);
-    // Inside of a cube it bounds a cavity, of no volume.
+    // In a cube it bounds a cavity of no volume.
     const MeshData inside = joined(moved(right, {2, 2, 2}), cube(5));
     check_becomes(inside, inside, 2, 1, 0);
 }

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 
@@ -245,4 +246,16 @@ TEST_CASE("tet surface: errors in a surface map name the line and what was found
         CHECK((at != std::string::npos && error.find(bad.found, at) != std::string::npos));
         CHECK(error.find('\n') == std::string::npos);
     }
+}
+
+TEST_CASE("tet surface: memory is reserved by the size of the map, not by a count in it") {
+    const auto peak = [] {   // largest size of the address space so far, in KiB; 0 where the system does not tell
+        std::ifstream in("/proc/self/status");
+        for (std::string word; in >> word;)
+            if (word == "VmPeak:" && in >> word) return std::stoll(word);
+        return 0LL;
+    };
+    const long long before = peak();
+    CHECK(error_of([] { read("536870911 triangles\n536870911 tetrahedra\n0\n"); }).find("t:") == 0);
+    CHECK(peak() - before < 100000);
 }

@@ -3,7 +3,7 @@
 cd "$(dirname "$0")/.." || exit 2
 status=0
 on_disk=$(for file in src/*.cpp; do basename "$file" .cpp; done | grep -v '^main$' | sort)
-in_make=$(sed -n 's/^MODULES *= *//p' Makefile | tr ' ' '\n' | sort)
+in_make=$(sed -n '/^MODULES/ { :more; /\\$/ { N; b more; }; s/\\\n//g; s/^MODULES *= *//p; }' Makefile | tr -s ' ' '\n' | sort)
 in_cmake=$(sed -n 's|^ *src/\([a-z_0-9]*\)\.cpp)*$|\1|p' CMakeLists.txt | sort)
 for list in make cmake; do
     eval "listed=\$in_$list"

@@ -16,7 +16,8 @@ namespace polylab {
 // Reads a mesh file by its extension: .obj, .mesh (MEDIT ASCII), .stl (ASCII or binary). O(size of the file)
 //  OBJ    v, f (1, 1/2, 1//3, 1/2/3; negative indices count back), l polylines = feature edges; the rest is skipped.
 //         Polygons with more than three sides are an error.
-//  MEDIT  Vertices, Edges (= feature edges), Triangles, Tetrahedra, Hexahedra; other blocks are skipped. Versions 1-3.
+//  MEDIT  Vertices, Edges (= feature edges), Triangles, Tetrahedra, Hexahedra; other blocks are skipped, but
+//         quadrilaterals are an error. Versions 1-3.
 //  STL    corners with exactly the same coordinates become one vertex, numbered by first appearance.
 MeshData read_mesh(const std::string& path);
 

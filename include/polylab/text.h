@@ -15,7 +15,7 @@ std::string read_file(const std::string& path);
 // what is not a regular file (pipe, device) is written through; "-" is standard output. Throws InputError.
 void write_file(const std::string& path, std::string_view content);
 
-// Appends a number: the shortest text that reads back as the same double, always with '.' or an exponent if `point`.
+// Appends a number; of a double, the shortest text that reads back as the same double.
 void append(std::string& out, double x);
 void append(std::string& out, Index i);
 

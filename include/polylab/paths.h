@@ -1,0 +1,51 @@
+// paths.h: what the operators of Section 6 share: paths across charts, regions between paths, bands, label choice.
+//
+// All of them read a state and change nothing. Lengths are in mean edges of the mesh, so nothing depends on its scale.
+#pragma once
+
+#include "polylab/state.h"
+
+#include <vector>
+
+namespace polylab {
+
+using Halfedges = std::vector<Index>;
+
+Halfedges reversed(const TriMesh& mesh, const Halfedges& path);   // the same way back
+
+// A walk through one chart from a vertex of its border, edge by edge as close to the direction as possible, until it
+// meets the border again or a turning-point (paper, 6.4.1 and 6.4.3). Each next edge is the one best aligned with a
+// target that runs ahead, so the walk comes back to its line. Empty where it turns back or meets itself.
+// differs: look-ahead in mean edges, not in model units; never along a border; no vertex twice.
+// Kept feature edges within 25 degrees of the line are preferred.   tie: first clockwise
+Halfedges greedy_path(const TriMesh& mesh, const State& state, Index vertex, Index chart, const Vec3& direction);
+
+// Along feature edges inside one chart, from half-edge h (a lost feature edge, leaving a vertex of the chart's border)
+// until the border, a dead end or a vertex met before. At a junction the straightest edge is taken.
+Halfedges lost_feature_path(const TriMesh& mesh, const State& state, Index h);
+
+// The lost feature edges that leave a vertex, in the order of the fan.
+Halfedges lost_features_at(const TriMesh& mesh, const State& state, Index outgoing);
+
+// Facets of a chart that are reached from the seeds (facets of it) without crossing the walls (half-edges, either way).
+// Empty where both sides of a wall are reached: then the walls enclose nothing.
+std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index chart, const std::vector<Index>& seeds, const Halfedges& walls);
+
+// Facets of a chart (kNone: of any) that touch the given vertices, then those that touch these, `rings` times.
+std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart, int rings);
+
+std::vector<Index> vertices_of(const TriMesh& mesh, const Halfedges& path);   // of all its edges, once each along the path
+
+// The half-edges around a chart, the chart at their left, one list per contour: the contour of its boundary of smallest
+// number first, beginning at the start of that boundary.
+std::vector<Halfedges> contours(const TriMesh& mesh, const State& state, Index chart);
+
+// Sum of the facets' unit normals.
+Vec3 mean_normal(const TriMesh& mesh, const std::vector<Index>& facets);
+
+// The label closest to a vector whose axis is none of the two given.   tie: smallest label
+Label best_label(const Vec3& v, int forbidden_axis, int other_forbidden_axis);
+
+Patch relabel(const std::vector<Index>& facets, Label label);
+
+}  // namespace polylab

@@ -1,0 +1,38 @@
+// routines.h: Algorithms 1 and 2 of the paper (Section 7): first a valid labeling, then one without turning-points.
+//
+// differs: every step is kept only if the score improves (state.h), so the routines end, and end with the best labeling
+// seen. Monotonicity is attempted on whatever validity leaves. Elements are not tried again in the same state.
+#pragma once
+
+#include "polylab/quality_operators.h"
+
+#include <functional>
+#include <string>
+
+namespace polylab {
+
+// One operator applied to one element.
+struct Step {
+    std::string operation;
+    Index element = kNone;      // chart, boundary or corner number; the vertex of a turning-point
+    bool kept = false;
+    Index proposals = 0;        // how many variants were tried
+    Index facets = 0;           // of the best one: how many facets it relabels
+    Score before, after;        // after: of the best variant, kept or not
+};
+
+struct RoutineOptions {
+    bool validity = true, monotonicity = true;   // which of the two routines run
+    bool allow_opposite = true;
+    Labeling locks;                              // facet -> label that it keeps, or kNoLabel; empty: none
+    std::function<void(const Step&)> trace;      // called after each step, if set
+};
+
+// The best labeling found from `start`, never worse than it by the score.
+// Bounded: each kept step lowers the score, and a pass that keeps none is the last.
+State run_routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options = {});
+
+// A line per step: `operation element kept|refused proposals facets before… after…`, scores as `invalid turning-points loss`.
+std::string trace_line(const Step& step);
+
+}  // namespace polylab

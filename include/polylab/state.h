@@ -1,0 +1,69 @@
+// state.h: a labeling together with all that is derived from it, and the score by which two are compared.
+//
+// differs: the published routines apply operators unconditionally. Here each one proposes a Patch, and the routine keeps
+// it only if the score improves, so that a result is never worse than its start.
+#pragma once
+
+#include "polylab/turning_points.h"
+
+#include <array>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+namespace polylab {
+
+// New labels for some facets: what an operator proposes. Empty: it found nothing to do.
+struct Relabel {
+    Index facet;
+    Label label;
+};
+using Patch = std::vector<Relabel>;
+
+// Compared from left to right, less is better; integers only.
+struct Score {
+    Index invalid = 0;        // charts, boundaries and corners
+    Index turning_points = 0; // vertices, the count that depends on no direction
+    std::int64_t loss = 0;    // fidelity and feature edges, see Judge
+
+    bool operator<(const Score& b) const {
+        return std::tie(invalid, turning_points, loss) < std::tie(b.invalid, b.turning_points, b.loss);
+    }
+    bool operator==(const Score& b) const { return !(*this < b) && !(b < *this); }
+};
+
+struct State {
+    Labeling labels;
+    LabelingGraph graph;
+    TurningPoints turning;
+    Score score;
+};
+
+// Derives states from labelings. The loss is the mean of (1 - fidelity) plus kLostWeight times the share of the kept
+// feature edges that are lost, in integers: a labeling may lose 1 % of the feature edges for 0.005 of mean fidelity.
+// Neither extreme is right: a part can keep every edge by labels that point away from their facets.
+inline constexpr double kLostWeight = 0.5;
+
+class Judge {
+public:
+    // Locked facets keep the labels of `locks` whatever a patch says; an empty list locks none, kNoLabel leaves free.
+    explicit Judge(const TriMesh& mesh, bool allow_opposite = true, Labeling locks = {});
+
+    const TriMesh& mesh() const { return mesh_; }
+    State state(Labeling labels) const;
+    // `state` with the patch applied, written into `result` (whose memory is reused). O(n)
+    void apply(const State& state, const Patch& patch, State& result) const;
+
+private:
+    void derive(State& state) const;
+    bool free(Index f) const { return locks_.empty() || locks_[f] == kNoLabel; }
+
+    const TriMesh& mesh_;
+    bool allow_opposite_;
+    Labeling locks_;
+    std::vector<std::array<std::int32_t, kLabels>> loss_;   // facet -> 1e6 (1 - fidelity) of each label
+    std::vector<Index> features_;                           // one half-edge per kept feature edge
+    std::int64_t loss_per_feature_ = 0;
+};
+
+}  // namespace polylab

@@ -1,0 +1,211 @@
+#include "polylab/paths.h"
+
+#include <algorithm>
+
+namespace polylab {
+
+namespace {
+
+constexpr double kLookAhead = 10;                      // mean edges
+constexpr double kFeatureAligned = 0.90630778703665;   // cos 25 degrees
+constexpr double kTurnsBack = 0;                       // cosine
+
+double cosine(const Vec3& a, const Vec3& b) {
+    const double lengths = std::sqrt(dot(a, a) * dot(b, b));
+    return lengths > 0 ? dot(a, b) / lengths : -1;
+}
+
+bool inside(const TriMesh& mesh, const State& state, Index h, Index chart) {
+    return state.graph.chart[mesh.left(h)] == chart && state.graph.chart[mesh.right(h)] == chart;
+}
+
+bool is_turning_point(const State& state, Index vertex) {
+    return std::any_of(state.turning.points.begin(), state.turning.points.end(), [&](const TurningPoint& t) { return t.vertex == vertex; });
+}
+
+// The half-edge around the origin of `around` that runs inside the chart and is best aligned with the direction.
+Index most_aligned(const TriMesh& mesh, const State& state, Index around, Index chart, const Vec3& direction) {
+    Index best = kNone;
+    double best_value = kTurnsBack;
+    Index h = around;
+    do {
+        h = mesh.cw(h);
+        if (!inside(mesh, state, h, chart)) continue;
+        const double c = cosine(mesh.vector(h), direction), value = mesh.feature[h] && c > kFeatureAligned ? c + 1 : c;
+        if (value > best_value) {   // tie: first clockwise
+            best = h;
+            best_value = value;
+        }
+    } while (h != around);
+    return best;
+}
+
+bool on_border(const TriMesh& mesh, const State& state, Index outgoing) {
+    Index h = outgoing;
+    do {
+        if (state.graph.is_border(h)) return true;
+        h = mesh.cw(h);
+    } while (h != outgoing);
+    return false;
+}
+
+// Some half-edge that leaves the vertex from a facet of the chart, or kNone.
+Index leaving(const TriMesh& mesh, const State& state, Index vertex, Index chart) {
+    for (Index h = 0; h < mesh.halfedges(); h++)
+        if (mesh.from(h) == vertex && state.graph.chart[facet(h)] == chart) return h;
+    return kNone;
+}
+
+}  // namespace
+
+Halfedges reversed(const TriMesh& mesh, const Halfedges& path) {
+    Halfedges back(path.rbegin(), path.rend());
+    for (Index& h : back) h = mesh.opposite[h];
+    return back;
+}
+
+Halfedges greedy_path(const TriMesh& mesh, const State& state, Index vertex, Index chart, const Vec3& direction) {
+    const Vec3 step = unit(direction);
+    Vec3 target = mesh.points[vertex] + step * (kLookAhead * mesh.mean_edge);
+    Halfedges path;
+    std::vector<char> visited(mesh.vertices(), 0);
+    visited[vertex] = 1;
+    const Index start = leaving(mesh, state, vertex, chart);
+    Index h = start == kNone ? kNone : most_aligned(mesh, state, start, chart, step);
+    while (h != kNone) {
+        path.push_back(h);
+        const Index tip = mesh.to(h), back = mesh.opposite[h];
+        if (visited[tip]) return {};
+        visited[tip] = 1;
+        if (on_border(mesh, state, back) || is_turning_point(state, tip)) return path;
+        target += step * norm(mesh.vector(h));
+        h = most_aligned(mesh, state, back, chart, target - mesh.points[tip]);
+    }
+    return {};
+}
+
+Halfedges lost_features_at(const TriMesh& mesh, const State& state, Index outgoing) {
+    Halfedges lost;
+    Index h = outgoing;
+    do {
+        if (mesh.feature[h] && !state.graph.is_border(h)) lost.push_back(h);
+        h = mesh.cw(h);
+    } while (h != outgoing);
+    return lost;
+}
+
+Halfedges lost_feature_path(const TriMesh& mesh, const State& state, Index h) {
+    const Index chart = state.graph.chart[facet(h)];
+    std::vector<char> visited(mesh.vertices(), 0);
+    visited[mesh.from(h)] = 1;
+    Halfedges path;
+    while (h != kNone && !visited[mesh.to(h)]) {
+        path.push_back(h);
+        visited[mesh.to(h)] = 1;
+        const Index back = mesh.opposite[h];
+        if (on_border(mesh, state, back)) break;
+        Index best = kNone;
+        double best_cosine = 0;
+        for (const Index other : lost_features_at(mesh, state, back)) {
+            const double c = cosine(mesh.vector(other), mesh.vector(h));
+            if (other == back || !inside(mesh, state, other, chart) || (best != kNone && c <= best_cosine)) continue;
+            best = other;
+            best_cosine = c;
+        }
+        h = best;
+    }
+    return path;
+}
+
+std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index chart, const std::vector<Index>& seeds, const Halfedges& walls) {
+    std::vector<char> wall(mesh.halfedges(), 0), reached(mesh.facets(), 0);
+    for (const Index h : walls) wall[h] = wall[mesh.opposite[h]] = 1;
+    std::vector<Index> region;
+    for (const Index f : seeds) {
+        if (reached[f] || state.graph.chart[f] != chart) continue;
+        reached[f] = 1;
+        region.push_back(f);
+    }
+    for (std::size_t i = 0; i < region.size(); i++) {
+        for (Index h = 3 * region[i]; h < 3 * region[i] + 3; h++) {
+            const Index f = mesh.right(h);
+            if (wall[h] || reached[f] || state.graph.chart[f] != chart) continue;
+            reached[f] = 1;
+            region.push_back(f);
+        }
+    }
+    for (const Index h : walls)
+        if (reached[mesh.left(h)] && reached[mesh.right(h)]) return {};
+    return region;
+}
+
+std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart, int rings) {
+    std::vector<char> touched(mesh.vertices(), 0), in(mesh.facets(), 0);
+    for (const Index v : vertices) touched[v] = 1;
+    std::vector<Index> facets, ring;
+    for (int r = 0; r < rings; r++) {
+        ring.clear();
+        for (Index f = 0; f < mesh.facets(); f++) {
+            if (in[f] || (chart != kNone && state.graph.chart[f] != chart)) continue;
+            if (touched[mesh.origin[3 * f]] || touched[mesh.origin[3 * f + 1]] || touched[mesh.origin[3 * f + 2]]) ring.push_back(f);
+        }
+        for (const Index f : ring) {
+            in[f] = 1;
+            facets.push_back(f);
+            for (int k = 0; k < 3; k++) touched[mesh.origin[3 * f + k]] = 1;
+        }
+    }
+    return facets;
+}
+
+std::vector<Index> vertices_of(const TriMesh& mesh, const Halfedges& path) {
+    std::vector<Index> vertices;
+    for (const Index h : path)
+        for (const Index v : {mesh.from(h), mesh.to(h)})
+            if (vertices.empty() || vertices.back() != v) vertices.push_back(v);
+    return vertices;
+}
+
+std::vector<Halfedges> contours(const TriMesh& mesh, const State& state, Index chart) {
+    const LabelingGraph& graph = state.graph;
+    std::vector<Halfedges> result;
+    std::vector<char> walked(graph.boundaries.size(), 0);
+    for (Index i = graph.charts[chart].boundaries.first; i < graph.charts[chart].boundaries.last; i++) {
+        const Boundary& boundary = graph.boundaries[graph.chart_boundaries[i]];
+        if (walked[graph.chart_boundaries[i]]) continue;
+        const bool runs = boundary.left == chart;
+        const Index first = runs ? graph.halfedges[boundary.halfedges.first] : mesh.opposite[graph.halfedges[boundary.halfedges.last - 1]];
+        Halfedges contour;
+        Index h = first;
+        do {
+            contour.push_back(h);
+            walked[graph.boundary[h]] = 1;
+            h = graph.next_border_cw(mesh, mesh.opposite[h]);
+        } while (h != first);
+        result.push_back(std::move(contour));
+    }
+    return result;
+}
+
+Vec3 mean_normal(const TriMesh& mesh, const std::vector<Index>& facets) {
+    Vec3 sum;
+    for (const Index f : facets) sum += mesh.normal[f];
+    return sum;
+}
+
+Label best_label(const Vec3& v, int forbidden_axis, int other_forbidden_axis) {
+    Label best = kNoLabel;
+    for (Label l = 0; l < kLabels; l++) {
+        if (axis(l) == forbidden_axis || axis(l) == other_forbidden_axis) continue;
+        if (best == kNoLabel || along(v, l) > along(v, best)) best = l;
+    }
+    return best;
+}
+
+Patch relabel(const std::vector<Index>& facets, Label label) {
+    Patch patch;
+    for (const Index f : facets) patch.push_back({f, label});
+    return patch;
+}
+
+}  // namespace polylab

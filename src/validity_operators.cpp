@@ -1,0 +1,311 @@
+#include "polylab/validity_operators.h"
+
+#include "polylab/costs.h"
+#include "polylab/initial_labeling.h"
+
+#include <algorithm>
+#include <array>
+
+namespace polylab {
+
+namespace {
+
+constexpr int kWidths[] = {2, 5};               // rings of facets of a chart inserted along a boundary
+constexpr int kCornerWidths[] = {1, 2, 4};      // and around a corner
+constexpr Index kForbidden = 100000;            // cost of a label that a facet must not take
+constexpr double kRegularPyramid = 0.02;        // rad, deviation of the angles between a pyramid's edges (published code)
+
+const Chart& chart_at(const State& state, Index f) { return state.graph.charts[state.graph.chart[f]]; }
+
+// ---- increase chart valence (6.4.1)
+
+// A place on a contour where a third axis is to be inserted.
+struct Spot {
+    Index vertex;
+    Halfedges down, up;   // polyedges that leave the vertex along the contour, clockwise and counter-clockwise
+};
+
+// The boundaries of a contour in order, each as its run of half-edges.
+std::vector<Halfedges> runs_of(const State& state, const Halfedges& contour) {
+    std::vector<Halfedges> runs;
+    for (const Index h : contour) {
+        const bool same = !runs.empty() && state.graph.boundary[runs.back().back()] == state.graph.boundary[h];
+        if (!same) runs.emplace_back();
+        runs.back().push_back(h);
+    }
+    return runs;
+}
+
+// A corner of a pyramid whose four edges are at equal angles: for high_valence_corner, not for here.
+bool is_regular_pyramid(const TriMesh& mesh, const State& state, Index vertex) {
+    const Corner& corner = state.graph.corners[state.graph.corner[vertex]];
+    const Range ring = state.graph.rings[corner.rings.first].halfedges;
+    if (corner.valence != 4 || ring.size() != 4) return false;
+    double angle[4], mean = 0, squares = 0;
+    for (int i = 0; i < 4; i++) {
+        const Index h = state.graph.ring_halfedges[ring.first + i], g = state.graph.ring_halfedges[ring.first + (i + 1) % 4];
+        if (!mesh.feature[h]) return false;
+        angle[i] = 1e-6 * angle_cost(mesh.vector(h), mesh.vector(g));
+        mean += angle[i] / 4;
+    }
+    for (const double a : angle) squares += (a - mean) * (a - mean) / 4;
+    return squares < kRegularPyramid * kRegularPyramid;
+}
+
+std::vector<Spot> find_spots(const TriMesh& mesh, const State& state, const Halfedges& contour) {
+    std::vector<Spot> spots;
+    const std::vector<Halfedges> runs = runs_of(state, contour);
+    for (std::size_t r = 0; r < runs.size(); r++) {
+        const Halfedges &run = runs[r], &following = runs[(r + 1) % runs.size()];
+        const Index b = state.graph.boundary[run[0]];
+        const int axis = state.graph.boundaries[b].axis;
+        if (axis == kNone) continue;
+        for (const TurningPoint& t : state.turning.points) {
+            if (t.boundary != b) continue;
+            const auto at = std::find_if(run.begin(), run.end(), [&](Index h) { return mesh.from(h) == t.vertex; });
+            if (at == run.begin() || at == run.end()) continue;
+            spots.push_back({t.vertex, reversed(mesh, {run.begin(), at}), {at, run.end()}});
+        }
+        const Index corner = mesh.to(run.back());
+        if (runs.size() > 1 && state.graph.boundaries[state.graph.boundary[following[0]]].axis == axis && state.graph.corner[corner] != kNone &&
+            !is_regular_pyramid(mesh, state, corner))
+            spots.push_back({corner, reversed(mesh, run), following});
+    }
+    return spots;
+}
+
+std::int32_t axis_cost(const TriMesh& mesh, Index h, int axis) {
+    const Vec3 e = unit(mesh.vector(h));
+    return angle_cost(std::abs(e[axis]));
+}
+
+// How many edges of the polyedge, from the spot on, go over to the inserted axis: up to where doing so costs more than
+// keeping the current axis beyond.
+std::size_t equilibrium(const TriMesh& mesh, const Halfedges& polyedge, int inserted_axis, int current_axis) {
+    std::int64_t inserted = 0, current = 0;
+    for (const Index h : polyedge) current += axis_cost(mesh, h, current_axis);
+    for (std::size_t i = 0; i < polyedge.size(); i++) {
+        inserted += axis_cost(mesh, polyedge[i], inserted_axis);
+        if (inserted > current) return i;
+        current -= axis_cost(mesh, polyedge[i], current_axis);
+    }
+    return polyedge.size();
+}
+
+// The largest angle, over the points, between the direction and the edge that follows it best.
+std::int32_t worst_start(const TriMesh& mesh, const std::vector<Index>& leaving, const Vec3& along_direction) {
+    std::int32_t worst = 0;
+    for (const Index start : leaving) {
+        std::int32_t best = angle_cost(-1.0);
+        Index h = start;
+        do {
+            best = std::min(best, angle_cost(mesh.vector(h), along_direction));
+            h = mesh.cw(h);
+        } while (h != start);
+        worst = std::max(worst, best);
+    }
+    return worst;
+}
+
+// The new chart between the first `edges` edges of a polyedge and the paths that leave its two ends, in the chart across.
+Patch chart_beside(const TriMesh& mesh, const State& state, Index chart, const Spot& spot, const Halfedges& polyedge, std::size_t edges) {
+    const Halfedges segment(polyedge.begin(), polyedge.begin() + static_cast<std::ptrdiff_t>(edges));
+    const Index support = state.graph.neighbour(state.graph.boundary[segment[0]], chart);
+    const Label label = state.graph.charts[chart].label, support_label = state.graph.charts[support].label;
+    if (!orthogonal(label, support_label)) return {};
+
+    const Index far_end = mesh.opposite[segment.back()];
+    const Vec3 positive = direction(label);
+    const bool forward = worst_start(mesh, {segment[0], far_end}, positive) < worst_start(mesh, {segment[0], far_end}, -positive);
+    const Vec3 away = forward ? positive : -positive;
+
+    // At a corner the neighbour's own border is the wall; elsewhere a path is traced.
+    Halfedges walls;
+    const auto add_wall = [&](Index vertex) {
+        if (state.graph.corner[vertex] != kNone) return true;
+        const Halfedges path = greedy_path(mesh, state, vertex, support, away);
+        walls.insert(walls.end(), path.begin(), path.end());
+        return !path.empty();
+    };
+    if (!add_wall(spot.vertex) || !add_wall(mesh.to(segment.back())) || walls.empty()) return {};
+
+    std::vector<Index> seeds;
+    for (const Index h : segment) seeds.push_back(state.graph.chart[mesh.left(h)] == support ? mesh.left(h) : mesh.right(h));
+    const std::vector<Index> region = region_between(mesh, state, support, seeds, walls);
+    return relabel(region, best_label(mean_normal(mesh, region), axis(label), axis(support_label)));
+}
+
+// ---- charts along boundaries and around corners
+
+std::vector<Label> labels_by_fit(const Vec3& normal) {
+    std::vector<Label> labels = {0, 1, 2, 3, 4, 5};
+    std::stable_sort(labels.begin(), labels.end(), [&](Label a, Label b) { return along(normal, a) > along(normal, b); });   // tie: smallest label
+    return labels;
+}
+
+Halfedges boundary_path(const State& state, Index b) {
+    const Range r = state.graph.boundaries[b].halfedges;
+    return {state.graph.halfedges.begin() + r.first, state.graph.halfedges.begin() + r.last};
+}
+
+void propose(Proposals& proposals, const std::vector<Index>& facets, Label label) {
+    if (!facets.empty()) proposals.push_back(relabel(facets, label));
+}
+
+// ---- chart removal
+
+struct Cut {
+    PottsEnergy energy;
+    std::vector<Index> facets;   // site -> facet
+};
+
+Cut removal_cut(const TriMesh& mesh, const State& state, const std::vector<Index>& charts, int compactness) {
+    Cut cut;
+    std::vector<Index> site(mesh.facets(), kNone);
+    std::vector<char> removed(state.graph.charts.size(), 0);
+    std::vector<std::array<char, kLabels>> allowed(state.graph.charts.size(), std::array<char, kLabels>{});
+    for (const Index c : charts) removed[c] = 1;
+    for (const Index c : charts)
+        for (Index i = state.graph.charts[c].boundaries.first; i < state.graph.charts[c].boundaries.last; i++) {
+            const Index other = state.graph.neighbour(state.graph.chart_boundaries[i], c);
+            if (!removed[other]) allowed[c][state.graph.charts[other].label] = 1;
+        }
+    for (Index f = 0; f < mesh.facets(); f++) {
+        const Index c = state.graph.chart[f];
+        if (!removed[c]) continue;
+        site[f] = static_cast<Index>(cut.facets.size());
+        cut.facets.push_back(f);
+        std::array<Index, kLabels> cost;
+        for (Label l = 0; l < kLabels; l++) cost[l] = data_cost(mesh.normal[f], l, 1) + (allowed[c][l] ? 0 : kForbidden);
+        cut.energy.data.push_back(cost);
+    }
+    for (const Index f : cut.facets) {
+        for (Index h = 3 * f; h < 3 * f + 3; h++) {
+            const Index g = mesh.right(h);
+            const int weight = pairwise_cost(mesh.normal[f], mesh.normal[g], compactness);
+            if (site[g] == kNone) {   // the surroundings are fixed: a different label costs the edge, on one site alone
+                for (Label l = 0; l < kLabels; l++) cut.energy.data[site[f]][l] += l == state.labels[g] ? 0 : weight;
+            } else if (f < g) {
+                cut.energy.ends.insert(cut.energy.ends.end(), {site[f], site[g]});
+                cut.energy.weight.push_back(weight);
+            }
+        }
+    }
+    return cut;
+}
+
+}  // namespace
+
+bool surrounded_by_features(const State& state, Index chart) {
+    const Range r = state.graph.charts[chart].boundaries;
+    for (Index i = r.first; i < r.last; i++)
+        if (!state.graph.boundaries[state.graph.chart_boundaries[i]].on_features) return false;
+    return r.size() > 0;
+}
+
+Proposals remove_surrounded_chart(const TriMesh& mesh, const State& state, Index chart) {
+    const Range r = state.graph.charts[chart].boundaries;
+    Label around = kNoLabel;
+    for (Index i = r.first; i < r.last; i++) {
+        const Index b = state.graph.chart_boundaries[i];
+        const Label label = state.graph.charts[state.graph.neighbour(b, chart)].label;
+        if (state.graph.boundaries[b].on_features || (around != kNoLabel && label != around)) return {};
+        around = label;
+    }
+    if (around == kNoLabel) return {};
+    Proposals proposals(1);
+    for (Index f = 0; f < mesh.facets(); f++)
+        if (state.graph.chart[f] == chart) proposals[0].push_back({f, around});
+    return proposals;
+}
+
+Proposals increase_chart_valence(const TriMesh& mesh, const State& state, Index chart) {
+    Proposals proposals;
+    const int chart_axis = axis(state.graph.charts[chart].label);
+    for (const Halfedges& contour : contours(mesh, state, chart)) {
+        for (const Spot& spot : find_spots(mesh, state, contour)) {
+            const int current = state.graph.boundaries[state.graph.boundary[spot.up[0]]].axis, inserted = 3 - current - chart_axis;
+            for (const Halfedges& polyedge : {spot.down, spot.up}) {
+                const std::size_t edges = equilibrium(mesh, polyedge, inserted, current);
+                if (edges == 0) continue;
+                Patch patch = chart_beside(mesh, state, chart, spot, polyedge, edges);
+                if (!patch.empty()) proposals.push_back(std::move(patch));
+            }
+        }
+    }
+    return proposals;
+}
+
+Proposals opposite_boundary(const TriMesh& mesh, const State& state, Index boundary) {
+    Proposals proposals;
+    const Boundary& b = state.graph.boundaries[boundary];
+    const Halfedges path = boundary_path(state, boundary);
+    Vec3 normal;
+    for (const Index h : path) normal += mesh.area_vector(mesh.left(h)) + mesh.area_vector(mesh.right(h));
+    for (const int width : kWidths) {
+        std::vector<Index> left = band(mesh, state, vertices_of(mesh, path), b.left, width);
+        std::vector<Index> right = band(mesh, state, vertices_of(mesh, path), b.right, width);
+        std::vector<Index> both = left;
+        both.insert(both.end(), right.begin(), right.end());
+        for (const Label l : labels_by_fit(normal)) {
+            if (!orthogonal(l, state.graph.charts[b.left].label) || !orthogonal(l, state.graph.charts[b.right].label)) continue;
+            for (const auto* facets : {&left, &right, &both}) propose(proposals, *facets, l);
+        }
+    }
+    return proposals;
+}
+
+Proposals high_valence_corner(const TriMesh& mesh, const State& state, Index corner) {
+    Proposals proposals;
+    const Corner& c = state.graph.corners[corner];
+    const Index first_ring = c.rings.first;
+    for (const int width : kCornerWidths) {
+        const std::vector<Index> around = band(mesh, state, {c.vertex}, kNone, width);
+        for (const Label l : labels_by_fit(mean_normal(mesh, around))) propose(proposals, around, l);
+    }
+    for (Index r = first_ring; r < c.rings.last; r++) {
+        const Range ring = state.graph.rings[r].halfedges;
+        for (const Index lost : lost_features_at(mesh, state, state.graph.ring_halfedges[ring.first])) {
+            const Halfedges path = lost_feature_path(mesh, state, lost);
+            const Label old = chart_at(state, mesh.left(lost)).label;
+            for (const Halfedges& side : {path, reversed(mesh, path)}) {
+                const Index chart = state.graph.chart[mesh.left(side[0])];
+                std::vector<Index> seeds;
+                for (const Index h : side) seeds.push_back(mesh.left(h));
+                std::vector<Index> strip = band(mesh, state, vertices_of(mesh, side), chart, 1);
+                std::vector<char> other(mesh.facets(), 0);
+                for (const Index h : side) other[mesh.right(h)] = 1;
+                strip.erase(std::remove_if(strip.begin(), strip.end(), [&](Index f) { return other[f]; }), strip.end());
+                for (const Label l : labels_by_fit(mean_normal(mesh, seeds)))
+                    if (orthogonal(l, old)) propose(proposals, strip, l);
+            }
+        }
+        for (Index i = ring.first; i < ring.last; i++) {
+            const Index b = state.graph.boundary[state.graph.ring_halfedges[i]];
+            const Boundary& boundary = state.graph.boundaries[b];
+            for (const int width : {1, 3}) {
+                propose(proposals, band(mesh, state, vertices_of(mesh, boundary_path(state, b)), boundary.left, width), state.graph.charts[boundary.right].label);
+                propose(proposals, band(mesh, state, vertices_of(mesh, boundary_path(state, b)), boundary.right, width), state.graph.charts[boundary.left].label);
+            }
+        }
+    }
+    return proposals;
+}
+
+Proposals remove_charts(const TriMesh& mesh, const State& state, const std::vector<Index>& charts) {
+    Proposals proposals;
+    if (charts.empty()) return proposals;
+    for (const int compactness : {1, 3, 9}) {
+        const Cut cut = removal_cut(mesh, state, charts, compactness);
+        const Labeling labels = alpha_expansion(cut.energy, Labeling(cut.facets.size(), 0));
+        Patch patch;
+        for (std::size_t i = 0; i < cut.facets.size(); i++)
+            if (cut.energy.data[i][labels[i]] < kForbidden) patch.push_back({cut.facets[i], labels[i]});
+        if (!patch.empty() && (proposals.empty() || proposals.back().size() != patch.size() ||
+                               !std::equal(patch.begin(), patch.end(), proposals.back().begin(), [](const Relabel& a, const Relabel& b) { return a.label == b.label; })))
+            proposals.push_back(std::move(patch));
+    }
+    return proposals;
+}
+
+}  // namespace polylab
