@@ -21,13 +21,13 @@ std::int32_t angle_cost(double c) {
 }
 
 std::int32_t angle_cost(const Vec3& a, const Vec3& b) {
-    const double lengths = std::sqrt(dot(a, a) * dot(b, b));
+    const double lengths = norm(a) * norm(b);
     return lengths > 0 ? angle_cost(dot(a, b) / lengths) : 0;
 }
 
 SinCos sin_cos(double radians) {
     double sine = 0, cosine = 0, term = 1;
-    // 60 terms: the 60th is below 1e-30 for up to four turns (25 rad), beyond the last bit.
+    // 120 terms are more than enough for one turn; beyond it the alternating terms cancel digits.
     for (int i = 0; i < 120; i += 2) {
         cosine += term;
         term *= radians / (i + 1);

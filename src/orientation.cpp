@@ -1,7 +1,7 @@
 #include "polylab/orientation.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <numeric>
 
 namespace polylab {
@@ -25,9 +25,9 @@ struct Box {
 };
 
 struct Components {
-    std::vector<Index> facets;       // all facets, component by component
-    std::vector<Index> first;        // component -> its first entry of `facets`; one more at the end
-    std::vector<char> turned;        // facet -> 1 where it disagrees with the first facet of its component
+    std::vector<Index> facets;   // all facets, component by component
+    std::vector<Index> first;    // component -> its first entry of `facets`; one more at the end
+    std::vector<char> turned;    // facet -> 1 where it disagrees with the first facet of its component
 
     Index count() const { return static_cast<Index>(first.size()) - 1; }
 };
@@ -74,18 +74,73 @@ double volume6(const std::vector<Vec3>& points, const std::vector<Index>& origin
     double sum = 0;
     for (Index i = c.first[component]; i < c.first[component + 1]; i++) {
         const Index f = c.facets[i];
-        const Vec3 p = points[origin[3 * f]] - about, q = points[origin[3 * f + 1]] - about, r = points[origin[3 * f + 2]] - about;
+        const Vec3 p = points[origin[3 * f]] - about, q = points[origin[3 * f + 1]] - about,
+                   r = points[origin[3 * f + 2]] - about;
         const double v = dot(p, cross(q, r));
         sum += c.turned[f] ? -v : v;
     }
     return sum;
 }
 
+// The line along x through (y, z) = (p.y + 0, p.z): an edge is crossed where its ends lie at different sides of p.y, vertices
+// on p.y being below. Each edge is evaluated from its smaller vertex, so that its two facets agree.
+// tie: p on the edge is above
+bool edge_above(const std::vector<Vec3>& points, Index a, Index b, const Vec3& p) {
+    if (a > b) std::swap(a, b);
+    const Vec3 &q = points[a], &r = points[b];
+    return q.z + (r.z - q.z) * ((p.y - q.y) / (r.y - q.y)) > p.z;
+}
+
+bool meets_line(const std::vector<Vec3>& points, const Index* facet, const Vec3& p) {
+    bool meets = false;
+    for (int k = 0; k < 3; k++) {
+        const Index a = facet[k], b = facet[(k + 1) % 3];
+        if ((points[a].y > p.y) != (points[b].y > p.y) && edge_above(points, a, b, p)) meets = !meets;
+    }
+    return meets;
+}
+
+Vec3 area_vector(const std::vector<Vec3>& points, const Index* facet) {
+    return cross(points[facet[1]] - points[facet[0]], points[facet[2]] - points[facet[0]]);
+}
+
+// A point well inside the component: the middle of the longest piece that it cuts out of the line along x through the
+// centre of the facet that shows most of itself along x. Its surface may touch other components, this point does not.
+Vec3 inner_point(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c, Index component) {
+    const Index begin = c.first[component], end = c.first[component + 1];
+    Index widest = begin;
+    double width = -1;
+    for (Index i = begin; i < end; i++) {
+        const double w = std::abs(area_vector(points, &origin[3 * c.facets[i]]).x);
+        if (w > width) {   // tie: the first one
+            widest = i;
+            width = w;
+        }
+    }
+    const Index* v = &origin[3 * c.facets[widest]];
+    Vec3 p = (points[v[0]] + points[v[1]] + points[v[2]]) * (1.0 / 3);
+    std::vector<double> crossings;
+    for (Index i = begin; i < end; i++) {
+        const Index* facet = &origin[3 * c.facets[i]];
+        const Vec3 n = area_vector(points, facet), q = points[facet[0]];
+        if (n.x != 0 && meets_line(points, facet, p)) crossings.push_back(q.x - (n.y * (p.y - q.y) + n.z * (p.z - q.z)) / n.x);
+    }
+    std::sort(crossings.begin(), crossings.end());
+    double longest = 0;
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+        if (crossings[i + 1] - crossings[i] > longest) {
+            longest = crossings[i + 1] - crossings[i];
+            p.x = (crossings[i] + crossings[i + 1]) / 2;
+        }
+    return p;
+}
+
 // Tells whether points lie inside one component: counts the facets that a ray along +x crosses. The facets are sorted
 // into a grid over (y, z), so that a query looks at one cell.
 class Locator {
 public:
-    Locator(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c, Index component, const Box& box)
+    Locator(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c, Index component,
+            const Box& box)
         : points_(points), origin_(origin), box_(box) {
         const Index begin = c.first[component], end = c.first[component + 1];
         while (side_ < 1024 && static_cast<Index>(side_) * side_ < end - begin) side_ *= 2;
@@ -115,26 +170,12 @@ private:
         return std::clamp(static_cast<int>(t), 0, side_ - 1);
     }
 
-    // The ray is at y = p.y + 0: an edge is crossed where its ends lie at different sides of p.y, vertices on p.y being
-    // above. Each edge is evaluated from its smaller vertex, so that its two facets agree.   tie: on the edge is below
-    bool edge_above(Index a, Index b, const Vec3& p) const {
-        if (a > b) std::swap(a, b);
-        const Vec3 &q = points_[a], &r = points_[b];
-        const double z = q.z + (r.z - q.z) * ((p.y - q.y) / (r.y - q.y));
-        return z > p.z;
-    }
-
     bool crosses(Index f, const Vec3& p) const {
-        bool in_projection = false;
-        for (int k = 0; k < 3; k++) {
-            const Index a = origin_[3 * f + k], b = origin_[3 * f + (k + 1) % 3];
-            if ((points_[a].y > p.y) != (points_[b].y > p.y) && edge_above(a, b, p)) in_projection = !in_projection;
-        }
-        if (!in_projection) return false;
-        const Vec3 corner = points_[origin_[3 * f]];
-        const Vec3 n = cross(points_[origin_[3 * f + 1]] - corner, points_[origin_[3 * f + 2]] - corner);
+        const Index* v = &origin_[3 * f];
+        if (!meets_line(points_, v, p)) return false;
+        const Vec3 n = area_vector(points_, v);
         // The facet's plane at (p.y, p.z) lies beyond p.x; n.x is not zero, or the projection would be empty.
-        const double above = dot(n, p - corner);
+        const double above = dot(n, p - points_[v[0]]);
         return n.x > 0 ? above < 0 : above > 0;
     }
 
@@ -145,9 +186,10 @@ private:
     std::vector<std::vector<Index>> cells_;
 };
 
-// component -> how many others contain it. Boxes first (sorted along x), then point location. Three facet centres vote,
-// since one may touch the container.
-std::vector<int> nesting_depth(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c) {
+// component -> how many others contain it. Boxes first (sorted along x), then volumes, then point location.
+std::vector<int> nesting_depth(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c,
+                               const std::vector<double>& volume) {
+    constexpr double kLess = 1 - 1e-9;   // rounding leaves equal volumes closer than this
     const Index n = c.count();
     std::vector<int> depth(n, 0);
     if (n == 1) return depth;
@@ -172,31 +214,28 @@ std::vector<int> nesting_depth(const std::vector<Vec3>& points, const std::vecto
             if (by_x[j] != outer && box[by_x[j]].inside(box[outer])) candidates.push_back(by_x[j]);
         if (candidates.empty()) continue;
         const Locator locator(points, origin, c, outer, box[outer]);
-        for (const Index inner : candidates) {
-            const Index begin = c.first[inner], last = c.first[inner + 1] - 1;
-            int votes = 0;
-            for (const Index j : {begin, (begin + last) / 2, last}) {
-                const Index* v = &origin[3 * c.facets[j]];
-                votes += locator.contains((points[v[0]] + points[v[1]] + points[v[2]]) * (1.0 / 3));
-            }
-            depth[inner] += votes >= 2;
-        }
+        // Two components on the same place do not contain each other: the inner one has less volume.
+        for (const Index inner : candidates)
+            if (std::abs(volume[inner]) <= kLess * std::abs(volume[outer]) &&
+                locator.contains(inner_point(points, origin, c, inner)))
+                depth[inner]++;
     }
     return depth;
 }
 
-}  // namespace
+}   // namespace
 
 Orientation orient(const std::vector<Vec3>& points, const std::vector<Index>& origin, const std::vector<Index>& opposite) {
     Components c = find_components(origin, opposite);
-    const std::vector<int> depth = nesting_depth(points, origin, c);
+    std::vector<double> volume(c.count());
+    for (Index i = 0; i < c.count(); i++) volume[i] = volume6(points, origin, c, i);
+    const std::vector<int> depth = nesting_depth(points, origin, c, volume);
     Orientation result;
     result.components = c.count();
     for (Index i = 0; i < c.count(); i++) {
         const bool cavity = depth[i] % 2 == 1;
         result.cavities += cavity;
-        const double volume = volume6(points, origin, c, i);
-        if (cavity ? volume > 0 : volume < 0)
+        if (cavity ? volume[i] > 0 : volume[i] < 0)
             for (Index j = c.first[i]; j < c.first[i + 1]; j++) c.turned[c.facets[j]] ^= 1;
         bool all = true;
         for (Index j = c.first[i]; j < c.first[i + 1] && all; j++) all = c.turned[c.facets[j]];
@@ -206,4 +245,4 @@ Orientation orient(const std::vector<Vec3>& points, const std::vector<Index>& or
     return result;
 }
 
-}  // namespace polylab
+}   // namespace polylab

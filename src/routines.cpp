@@ -10,11 +10,32 @@ namespace polylab {
 
 namespace {
 
-constexpr int kPasses = 6;           // of Algorithm 1 (published code: max_loops + 1)
-constexpr int kSequenceStarts = 4;   // proposals of an operator that may be followed by others
-constexpr int kSequenceLength = 4;   // operators that may follow
+// What a pass of Algorithm 1 may do: cheap repairs first, and all of them before any costly one.
+struct Pass {
+    double loss_limit;   // mean fidelity that one step may cost
+    bool sequences;      // whether steps may be combined
+};
+constexpr Pass kPasses[] = {{0.001, false}, {0.004, false}, {0.016, false}, {0.004, true}, {0.016, true}, {1, true}};
 
 enum class Kind { chart, boundary, corner };
+
+struct Operator {
+    const char* name;
+    Kind kind;
+    Proposals (*propose)(const TriMesh&, const State&, Index element);
+};
+
+// In the order of Algorithm 1: valence first, since what it repairs shows invalid boundaries and corners too; boundaries
+// before corners, since the ends of an invalid boundary are often invalid; removal last, since it destroys most.
+const Operator kValidityOperators[] = {
+    {"remove-surrounded-chart", Kind::chart, remove_surrounded_chart},
+    {"increase-chart-valence", Kind::chart, increase_chart_valence},
+    {"opposite-boundary", Kind::boundary, opposite_boundary},
+    {"high-valence-corner", Kind::corner, high_valence_corner},
+    {"grow-chart", Kind::chart, grow_chart},
+    {"remove-chart", Kind::chart, remove_chart},
+    {"remove-charts-around-boundary", Kind::boundary, remove_charts_around_boundary},
+};
 
 class Routines {
 public:
@@ -30,18 +51,15 @@ public:
 private:
     // Algorithm 1.
     void fix_validity() {
-        for (int pass = 0; pass < kPasses && !state_.graph.valid(); pass++) {
-            const Score before = state_.score;
-            repeat("smooth-boundaries", [&] { return once("smooth-boundaries", kNone, smooth_boundaries(mesh_, state_)); });
-            for_each_invalid(Kind::chart, "remove-surrounded-chart", [&](const State& s, Index c) { return remove_surrounded_chart(mesh_, s, c); });
-            for_each_invalid(Kind::chart, "increase-chart-valence", [&](const State& s, Index c) { return valence(s, c); });
-            for_each_invalid(Kind::boundary, "opposite-boundary", [&](const State& s, Index b) { return opposite_boundary(mesh_, s, b); });
-            for_each_invalid(Kind::corner, "high-valence-corner", [&](const State& s, Index c) { return high_valence_corner(mesh_, s, c); });
-            if (state_.graph.valid()) return;
-            remove_invalid_charts();
-            if (state_.score == before) {
-                remove_charts_around_invalid_boundaries();
-                if (state_.score == before) return;
+        for (const Pass& pass : kPasses) {
+            loss_limit_ = static_cast<std::int64_t>(pass.loss_limit * 1e6 * mesh_.facets());
+            for (Score before; !state_.graph.valid() && !(state_.score == before);) {
+                before = state_.score;
+                once("smooth-boundaries", kNone, smooth_boundaries(mesh_, state_));
+                for (const Operator& o : kValidityOperators) for_each_invalid(o, {});
+                remove_invalid_charts();
+                if (pass.sequences && state_.score == before)
+                    for (const Operator& o : kValidityOperators) for_each_in_sequence(o);
             }
         }
     }
@@ -61,32 +79,27 @@ private:
         for_each_turning_point("directional-path", [&](const State& s, const TurningPoint& t) { return directional_path(mesh_, s, t); });
     }
 
-    Proposals valence(const State& s, Index c) const { return increase_chart_valence(mesh_, s, c); }
-
     // ---- the one step
 
-    // Tries all proposals and keeps the best if the score improves.   tie: the first
+    bool improves(const State& s, const State& before) const { return s.score < before.score && s.score.loss - before.score.loss <= loss_limit_; }
+
+    // Tries all proposals. Of those that improve the score it keeps the one with the least loss, so that a small repair is
+    // preferred to a sweeping one that repairs more.   tie: the first
     bool once(const char* operation, Index element, const Proposals& proposals) {
         if (proposals.empty()) return false;
         Step step{operation, element, false, static_cast<Index>(proposals.size()), 0, state_.score, {}};
-        bool any = false;
         for (const Patch& patch : proposals) {
             judge_.apply(state_, patch, trial_);
-            if (any && !(trial_.score < best_.score)) continue;
-            any = true;
+            const bool better = improves(trial_, state_);
+            if (step.facets > 0 && (better != step.kept ? step.kept : better ? trial_.score.loss >= best_.score.loss : !(trial_.score < best_.score))) continue;
             std::swap(trial_, best_);
+            step.kept = better;
             step.facets = static_cast<Index>(patch.size());
         }
         step.after = best_.score;
-        step.kept = best_.score < state_.score;
         if (step.kept) std::swap(best_, state_);
         if (options_.trace) options_.trace(step);
         return step.kept;
-    }
-
-    template <class Try>
-    void repeat(const char*, const Try& attempt) {
-        while (attempt()) {}
     }
 
     static Index count(const State& s, Kind kind) {
@@ -95,26 +108,45 @@ private:
     static bool invalid(const State& s, Kind kind, Index i) {
         return kind == Kind::chart ? !s.graph.charts[i].valid : kind == Kind::boundary ? !s.graph.boundaries[i].valid : !s.graph.corners[i].valid;
     }
-
     // An element by something that outlives a relabeling elsewhere.
-    Index name(const State& s, Kind kind, Index i) const {
+    static Index name(const State& s, Kind kind, Index i) {
         return kind == Kind::chart      ? s.graph.charts[i].smallest_facet
                : kind == Kind::boundary ? s.graph.halfedges[s.graph.boundaries[i].halfedges.first]
                                         : s.graph.corners[i].vertex;
     }
+    std::set<Index> invalid_names(Kind kind) const {
+        std::set<Index> names;
+        for (Index i = 0; i < count(state_, kind); i++)
+            if (invalid(state_, kind, i)) names.insert(name(state_, kind, i));
+        return names;
+    }
 
-    // The operator on the first invalid element, until none of them gives a better state.
-    template <class Operator>
-    void for_each_invalid(Kind kind, const char* operation, const Operator& apply) {
-        std::set<Index> tried;
-        for (Index i = 0; i < count(state_, kind);) {
-            if (invalid(state_, kind, i) && tried.insert(name(state_, kind, i)).second && once(operation, i, apply(state_, i))) {
-                i = 0;
-                tried.clear();
-            } else {
-                i++;
-            }
+    // The operator on the first invalid element that is not in `skip`, until none of them gives a better state.
+    void for_each_invalid(const Operator& o, const std::set<Index>& skip) {
+        for (Index i = 0; i < count(state_, o.kind);) {
+            const bool kept = invalid(state_, o.kind, i) && skip.count(name(state_, o.kind, i)) == 0 && once(o.name, i, o.propose(mesh_, state_, i));
+            i = kept ? 0 : i + 1;
         }
+    }
+
+    // Some repairs make things worse before they get better: each proposal is taken as it is, the operators mend what it
+    // broke, and the whole is kept if it improves the score.
+    void for_each_in_sequence(const Operator& o) {
+        for (Index i = 0; i < count(state_, o.kind);) i = invalid(state_, o.kind, i) && sequence(o.propose(mesh_, state_, i)) ? 0 : i + 1;
+    }
+
+    bool sequence(const Proposals& proposals) {
+        const State before = state_;
+        const std::set<Index> skip[] = {invalid_names(Kind::chart), invalid_names(Kind::boundary), invalid_names(Kind::corner)};
+        State best;
+        for (const Patch& patch : proposals) {
+            judge_.apply(before, patch, state_);
+            for (const Operator& o : kValidityOperators) for_each_invalid(o, skip[static_cast<int>(o.kind)]);
+            if (improves(state_, before) && (best.labels.empty() || state_.score.loss < best.score.loss)) std::swap(state_, best);
+        }
+        const bool kept = !best.labels.empty();
+        state_ = kept ? std::move(best) : before;
+        return kept;
     }
 
     template <class Operator>
@@ -125,6 +157,7 @@ private:
         }
     }
 
+    // All of them in one cut, as long as that helps; those that are the part's own shape are spared.
     void remove_invalid_charts() {
         while (!state_.graph.valid()) {
             std::vector<Index> charts;
@@ -132,16 +165,6 @@ private:
                 if (!state_.graph.charts[c].valid && !surrounded_by_features(state_, c)) charts.push_back(c);
             if (!once("remove-charts", kNone, remove_charts(mesh_, state_, charts))) break;
         }
-        for_each_invalid(Kind::chart, "remove-chart", [&](const State& s, Index c) { return remove_charts(mesh_, s, {c}); });
-    }
-
-    void remove_charts_around_invalid_boundaries() {
-        for_each_invalid(Kind::boundary, "remove-charts-around-boundary", [&](const State& s, Index b) {
-            Proposals proposals;
-            for (const std::vector<Index>& charts : {std::vector<Index>{s.graph.boundaries[b].left}, {s.graph.boundaries[b].right}, {s.graph.boundaries[b].left, s.graph.boundaries[b].right}})
-                for (Patch& patch : remove_charts(mesh_, s, charts)) proposals.push_back(std::move(patch));
-            return proposals;
-        });
     }
 
     void straighten_boundaries() {
@@ -152,6 +175,7 @@ private:
     const RoutineOptions& options_;
     Judge judge_;
     State state_;
+    std::int64_t loss_limit_ = std::numeric_limits<std::int64_t>::max();
     State trial_, best_;   // memory of once()
 };
 

@@ -10,10 +10,10 @@ namespace polylab {
 
 namespace {
 
-constexpr int kWidths[] = {2, 5};               // rings of facets of a chart inserted along a boundary
+constexpr int kWidths[] = {1, 2, 5};              // rings of facets of a chart inserted along a boundary
 constexpr int kCornerWidths[] = {1, 2, 4};      // and around a corner
+constexpr std::size_t kShortestSegment = 3;     // edges of a contour that go over to an inserted axis, unless fewer balance
 constexpr Index kForbidden = 100000;            // cost of a label that a facet must not take
-constexpr double kRegularPyramid = 0.02;        // rad, deviation of the angles between a pyramid's edges (published code)
 
 const Chart& chart_at(const State& state, Index f) { return state.graph.charts[state.graph.chart[f]]; }
 
@@ -36,22 +36,6 @@ std::vector<Halfedges> runs_of(const State& state, const Halfedges& contour) {
     return runs;
 }
 
-// A corner of a pyramid whose four edges are at equal angles: for high_valence_corner, not for here.
-bool is_regular_pyramid(const TriMesh& mesh, const State& state, Index vertex) {
-    const Corner& corner = state.graph.corners[state.graph.corner[vertex]];
-    const Range ring = state.graph.rings[corner.rings.first].halfedges;
-    if (corner.valence != 4 || ring.size() != 4) return false;
-    double angle[4], mean = 0, squares = 0;
-    for (int i = 0; i < 4; i++) {
-        const Index h = state.graph.ring_halfedges[ring.first + i], g = state.graph.ring_halfedges[ring.first + (i + 1) % 4];
-        if (!mesh.feature[h]) return false;
-        angle[i] = 1e-6 * angle_cost(mesh.vector(h), mesh.vector(g));
-        mean += angle[i] / 4;
-    }
-    for (const double a : angle) squares += (a - mean) * (a - mean) / 4;
-    return squares < kRegularPyramid * kRegularPyramid;
-}
-
 std::vector<Spot> find_spots(const TriMesh& mesh, const State& state, const Halfedges& contour) {
     std::vector<Spot> spots;
     const std::vector<Halfedges> runs = runs_of(state, contour);
@@ -67,8 +51,7 @@ std::vector<Spot> find_spots(const TriMesh& mesh, const State& state, const Half
             spots.push_back({t.vertex, reversed(mesh, {run.begin(), at}), {at, run.end()}});
         }
         const Index corner = mesh.to(run.back());
-        if (runs.size() > 1 && state.graph.boundaries[state.graph.boundary[following[0]]].axis == axis && state.graph.corner[corner] != kNone &&
-            !is_regular_pyramid(mesh, state, corner))
+        if (runs.size() > 1 && state.graph.boundaries[state.graph.boundary[following[0]]].axis == axis && state.graph.corner[corner] != kNone)
             spots.push_back({corner, reversed(mesh, run), following});
     }
     return spots;
@@ -226,10 +209,11 @@ Proposals increase_chart_valence(const TriMesh& mesh, const State& state, Index 
         for (const Spot& spot : find_spots(mesh, state, contour)) {
             const int current = state.graph.boundaries[state.graph.boundary[spot.up[0]]].axis, inserted = 3 - current - chart_axis;
             for (const Halfedges& polyedge : {spot.down, spot.up}) {
-                const std::size_t edges = equilibrium(mesh, polyedge, inserted, current);
-                if (edges == 0) continue;
-                Patch patch = chart_beside(mesh, state, chart, spot, polyedge, edges);
-                if (!patch.empty()) proposals.push_back(std::move(patch));
+                const std::size_t balanced = equilibrium(mesh, polyedge, inserted, current);
+                for (std::size_t edges = balanced; edges > 0 && (edges == balanced || edges >= kShortestSegment); edges /= 2) {
+                    Patch patch = chart_beside(mesh, state, chart, spot, polyedge, edges);
+                    if (!patch.empty()) proposals.push_back(std::move(patch));
+                }
             }
         }
     }
@@ -305,6 +289,31 @@ Proposals remove_charts(const TriMesh& mesh, const State& state, const std::vect
                                !std::equal(patch.begin(), patch.end(), proposals.back().begin(), [](const Relabel& a, const Relabel& b) { return a.label == b.label; })))
             proposals.push_back(std::move(patch));
     }
+    return proposals;
+}
+
+Proposals remove_chart(const TriMesh& mesh, const State& state, Index chart) { return remove_charts(mesh, state, {chart}); }
+
+Proposals remove_charts_around_boundary(const TriMesh& mesh, const State& state, Index boundary) {
+    Proposals proposals;
+    const Boundary& b = state.graph.boundaries[boundary];
+    for (const std::vector<Index>& charts : {std::vector<Index>{b.left}, {b.right}, {b.left, b.right}})
+        for (Patch& patch : remove_charts(mesh, state, charts)) proposals.push_back(std::move(patch));
+    return proposals;
+}
+
+Proposals grow_chart(const TriMesh& mesh, const State& state, Index chart) {
+    Proposals proposals;
+    std::vector<Index> vertices, neighbours = {kNone};
+    for (const Halfedges& contour : contours(mesh, state, chart))
+        for (const Index h : contour) {
+            vertices.push_back(mesh.from(h));
+            neighbours.push_back(state.graph.chart[mesh.right(h)]);
+        }
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    for (const Index into : neighbours)
+        for (const int rings : {1, 2, 4, 8}) propose(proposals, band(mesh, state, vertices, into, rings), state.graph.charts[chart].label);
     return proposals;
 }
 

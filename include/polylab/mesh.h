@@ -64,7 +64,7 @@ struct TriMesh {
     Index flat_facets = 0;          // facets without area
     Index features_given = 0;       // feature edges of the file, as listed
     Index features_kept = 0;        // distinct edges with feature[h] set
-    Index features_off = 0;         // feature edges of the file that are not edges of the surface
+    Index features_off = 0;         // those of the file, as listed, that are not edges of the surface
 
     Index vertices() const { return static_cast<Index>(points.size()); }
     Index facets() const { return static_cast<Index>(normal.size()); }

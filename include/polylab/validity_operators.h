@@ -35,6 +35,15 @@ Proposals high_valence_corner(const TriMesh& mesh, const State& state, Index cor
 // facets alone, the surroundings being fixed. Variants: compactness 1, 3 and 9 against fidelity 1.
 Proposals remove_charts(const TriMesh& mesh, const State& state, const std::vector<Index>& charts);
 
+Proposals remove_chart(const TriMesh& mesh, const State& state, Index chart);
+
+// The charts at one side, the other or both sides of an invalid boundary are removed (Algorithm 1, line 20).
+Proposals remove_charts_around_boundary(const TriMesh& mesh, const State& state, Index boundary);
+
+// The chart spreads over the facets around it, 1 to 8 rings far, all around or into one neighbour: a chart that is too
+// small for its place may reach more neighbours. Not in the paper.
+Proposals grow_chart(const TriMesh& mesh, const State& state, Index chart);
+
 // Whether every boundary of the chart lies on kept feature edges: then it is the part's own shape, and not to be removed.
 bool surrounded_by_features(const State& state, Index chart);
 
