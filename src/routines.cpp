@@ -10,16 +10,9 @@ namespace polylab {
 
 namespace {
 
-// What a pass of Algorithm 1 may do: cheap repairs first, and all of them before any costly one.
-struct Pass {
-    double loss_limit;   // mean fidelity that one step may cost
-    bool sequences;      // whether steps may be combined
-};
-constexpr Pass kPasses[] = {{0.001, false}, {0.004, false}, {0.016, false}, {0.004, true}, {0.016, true}, {1, true}};
-
 enum class Kind { chart, boundary, corner };
 
-struct Operator {
+struct ValidityOperator {
     const char* name;
     Kind kind;
     Proposals (*propose)(const TriMesh&, const State&, Index element);
@@ -27,7 +20,7 @@ struct Operator {
 
 // In the order of Algorithm 1: valence first, since what it repairs shows invalid boundaries and corners too; boundaries
 // before corners, since the ends of an invalid boundary are often invalid; removal last, since it destroys most.
-const Operator kValidityOperators[] = {
+constexpr ValidityOperator kValidityOperators[] = {
     {"remove-surrounded-chart", Kind::chart, remove_surrounded_chart},
     {"increase-chart-valence", Kind::chart, increase_chart_valence},
     {"opposite-boundary", Kind::boundary, opposite_boundary},
@@ -37,49 +30,67 @@ const Operator kValidityOperators[] = {
     {"remove-charts-around-boundary", Kind::boundary, remove_charts_around_boundary},
 };
 
+struct QualityOperator {
+    const char* name;
+    Proposals (*propose)(const TriMesh&, const State&, const TurningPoint&);
+};
+
+// In the order of Algorithm 2; straightening, which goes by boundary, comes behind the third.
+constexpr QualityOperator kJoin = {"join-turning-points", join_turning_points};
+constexpr QualityOperator kPull = {"pull-closest-corner", pull_closest_corner};
+constexpr QualityOperator kMove = {"move-boundary-near", move_boundary_near};
+constexpr QualityOperator kDirectional = {"directional-path", directional_path};
+
+// What a pass of a routine may do: cheap repairs first, and all of them before any costly one.
+struct Pass {
+    double loss_limit;   // mean fidelity that one step may cost
+    bool sequences;      // whether steps may be combined
+};
+constexpr Pass kPasses[] = {{0.001, false}, {0.004, false}, {0.016, false}, {0.004, true}, {0.016, true}, {1, true}};
+
 class Routines {
 public:
     Routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options)
         : mesh_(mesh), options_(options), judge_(mesh, options.allow_opposite, options.locks), state_(judge_.state(std::move(start))) {}
 
     State run() {
-        if (options_.validity) fix_validity();
-        if (options_.monotonicity) fix_monotonicity();
+        for (const Pass& pass : kPasses)
+            if (options_.validity) fix_validity(pass);
+        for (const Pass& pass : kPasses)
+            if (options_.monotonicity && !pass.sequences) fix_monotonicity(pass);
         return std::move(state_);
     }
 
 private:
     // Algorithm 1.
-    void fix_validity() {
-        for (const Pass& pass : kPasses) {
-            loss_limit_ = static_cast<std::int64_t>(pass.loss_limit * 1e6 * mesh_.facets());
-            for (Score before; !state_.graph.valid() && !(state_.score == before);) {
-                before = state_.score;
-                once("smooth-boundaries", kNone, smooth_boundaries(mesh_, state_));
-                for (const Operator& o : kValidityOperators) for_each_invalid(o, {});
-                remove_invalid_charts();
-                if (pass.sequences && state_.score == before)
-                    for (const Operator& o : kValidityOperators) for_each_in_sequence(o);
-            }
+    void fix_validity(const Pass& pass) {
+        set_limit(pass.loss_limit);
+        for (Score before; !state_.graph.valid() && !(state_.score == before);) {
+            before = state_.score;
+            once("smooth-boundaries", kNone, smooth_boundaries(mesh_, state_));
+            for (const ValidityOperator& o : kValidityOperators) for_each_invalid(o);
+            remove_invalid_charts();
+            if (pass.sequences && state_.score == before)
+                for (const ValidityOperator& o : kValidityOperators) for_each_in_sequence(o);
         }
     }
 
     // Algorithm 2.
-    void fix_monotonicity() {
-        for_each_turning_point("join-turning-points", [&](const State& s, const TurningPoint& t) { return join_turning_points(mesh_, s, t); });
-        for_each_turning_point("pull-closest-corner", [&](const State& s, const TurningPoint& t) {
-            return beside_feature(mesh_, s, t) ? pull_closest_corner(mesh_, s, t) : Proposals{};
-        });
-        for_each_turning_point("move-boundary-near", [&](const State& s, const TurningPoint& t) {
-            return beside_feature(mesh_, s, t) ? Proposals{} : move_boundary_near(mesh_, s, t);
-        });
-        straighten_boundaries();
-        for_each_turning_point("pull-closest-corner", [&](const State& s, const TurningPoint& t) { return pull_closest_corner(mesh_, s, t); });
-        for_each_turning_point("move-boundary-near", [&](const State& s, const TurningPoint& t) { return move_boundary_near(mesh_, s, t); });
-        for_each_turning_point("directional-path", [&](const State& s, const TurningPoint& t) { return directional_path(mesh_, s, t); });
+    void fix_monotonicity(const Pass& pass) {
+        set_limit(pass.loss_limit);
+        for (Score before; state_.turning.vertices > 0 && !(state_.score == before);) {
+            before = state_.score;
+            for_each_turning_point(kJoin);
+            for_each_turning_point(kPull);
+            for_each_turning_point(kMove);
+            straighten_boundaries();
+            for_each_turning_point(kDirectional);
+        }
     }
 
-    // ---- the one step
+    // ---- one step
+
+    void set_limit(double mean_fidelity) { loss_limit_ = static_cast<std::int64_t>(mean_fidelity * kLossUnit * mesh_.facets()); }
 
     bool improves(const State& s, const State& before) const { return s.score < before.score && s.score.loss - before.score.loss <= loss_limit_; }
 
@@ -87,11 +98,12 @@ private:
     // preferred to a sweeping one that repairs more.   tie: the first
     bool once(const char* operation, Index element, const Proposals& proposals) {
         if (proposals.empty()) return false;
-        Step step{operation, element, false, static_cast<Index>(proposals.size()), 0, state_.score, {}};
+        Step step{operation, element, in_sequence_, false, static_cast<Index>(proposals.size()), 0, state_.score, {}};
         for (const Patch& patch : proposals) {
             judge_.apply(state_, patch, trial_);
-            const bool better = improves(trial_, state_);
-            if (step.facets > 0 && (better != step.kept ? step.kept : better ? trial_.score.loss >= best_.score.loss : !(trial_.score < best_.score))) continue;
+            const bool better = improves(trial_, state_), first = step.facets == 0;
+            const bool best = better ? !step.kept || trial_.score.loss < best_.score.loss : !step.kept && trial_.score < best_.score;
+            if (!first && !best) continue;
             std::swap(trial_, best_);
             step.kept = better;
             step.facets = static_cast<Index>(patch.size());
@@ -102,8 +114,12 @@ private:
         return step.kept;
     }
 
+    // ---- elements
+
     static Index count(const State& s, Kind kind) {
-        return static_cast<Index>(kind == Kind::chart ? s.graph.charts.size() : kind == Kind::boundary ? s.graph.boundaries.size() : s.graph.corners.size());
+        return static_cast<Index>(kind == Kind::chart      ? s.graph.charts.size()
+                                  : kind == Kind::boundary ? s.graph.boundaries.size()
+                                                           : s.graph.corners.size());
     }
     static bool invalid(const State& s, Kind kind, Index i) {
         return kind == Kind::chart ? !s.graph.charts[i].valid : kind == Kind::boundary ? !s.graph.boundaries[i].valid : !s.graph.corners[i].valid;
@@ -114,46 +130,76 @@ private:
                : kind == Kind::boundary ? s.graph.halfedges[s.graph.boundaries[i].halfedges.first]
                                         : s.graph.corners[i].vertex;
     }
-    std::set<Index> invalid_names(Kind kind) const {
-        std::set<Index> names;
-        for (Index i = 0; i < count(state_, kind); i++)
-            if (invalid(state_, kind, i)) names.insert(name(state_, kind, i));
-        return names;
+
+    // A number for all that lies around an element: the charts that meet there, with their contours. While it stays the
+    // same, an operator that was refused there need not be tried again.
+    std::uint64_t surroundings(const std::vector<Index>& charts) const {
+        std::uint64_t hash = 14695981039346656037u;   // FNV-1a, a word at a time
+        const auto mix = [&](Index i) { hash = (hash ^ static_cast<std::uint32_t>(i)) * 1099511628211u; };
+        const LabelingGraph& graph = state_.graph;
+        for (const Index c : charts) {
+            mix(graph.charts[c].smallest_facet);
+            mix(graph.charts[c].label);
+            mix(graph.charts[c].facets);
+            for (Index i = graph.charts[c].boundaries.first; i < graph.charts[c].boundaries.last; i++) {
+                const Boundary& b = graph.boundaries[graph.chart_boundaries[i]];
+                mix(graph.charts[graph.neighbour(graph.chart_boundaries[i], c)].label);
+                for (Index k = b.halfedges.first; k < b.halfedges.last; k++) mix(graph.halfedges[k]);
+            }
+        }
+        return hash;
     }
 
-    // The operator on the first invalid element that is not in `skip`, until none of them gives a better state.
-    void for_each_invalid(const Operator& o, const std::set<Index>& skip) {
-        for (Index i = 0; i < count(state_, o.kind);) {
-            const bool kept = invalid(state_, o.kind, i) && skip.count(name(state_, o.kind, i)) == 0 && once(o.name, i, o.propose(mesh_, state_, i));
-            i = kept ? 0 : i + 1;
+    std::vector<Index> charts_at(Kind kind, Index i) const {
+        const LabelingGraph& graph = state_.graph;
+        std::vector<Index> charts;
+        if (kind == Kind::boundary) charts = {graph.boundaries[i].left, graph.boundaries[i].right};
+        if (kind == Kind::chart) {
+            charts = {i};
+            for (Index k = graph.charts[i].boundaries.first; k < graph.charts[i].boundaries.last; k++) charts.push_back(graph.neighbour(graph.chart_boundaries[k], i));
+        }
+        if (kind == Kind::corner)
+            for (Index r = graph.corners[i].rings.first; r < graph.corners[i].rings.last; r++)
+                for (Index k = graph.rings[r].halfedges.first; k < graph.rings[r].halfedges.last; k++) charts.push_back(graph.chart[facet(graph.ring_halfedges[k])]);
+        return charts;
+    }
+
+    // Whether the operator has not been refused at this place in the same surroundings and under this limit; notes it.
+    bool untried(const char* operation, Index place, const std::vector<Index>& charts) {
+        return tried_.insert({std::string(operation) + (in_sequence_ ? "/" : ""), place, surroundings(charts), loss_limit_}).second;
+    }
+
+    // The operator on one invalid element after the other, until a round keeps nothing. In a sequence only on elements
+    // that were valid before it.
+    void for_each_invalid(const ValidityOperator& o) {
+        for (bool kept = true; kept;) {
+            kept = false;
+            for (Index i = 0; i < count(state_, o.kind); i++) {
+                if (!invalid(state_, o.kind, i)) continue;
+                const Index place = name(state_, o.kind, i);
+                if (invalid_before_[static_cast<int>(o.kind)].count(place) > 0 || !untried(o.name, place, charts_at(o.kind, i))) continue;
+                kept = once(o.name, i, o.propose(mesh_, state_, i)) || kept;
+            }
         }
     }
 
-    // Some repairs make things worse before they get better: each proposal is taken as it is, the operators mend what it
-    // broke, and the whole is kept if it improves the score.
-    void for_each_in_sequence(const Operator& o) {
-        for (Index i = 0; i < count(state_, o.kind);) i = invalid(state_, o.kind, i) && sequence(o.propose(mesh_, state_, i)) ? 0 : i + 1;
-    }
-
-    bool sequence(const Proposals& proposals) {
-        const State before = state_;
-        const std::set<Index> skip[] = {invalid_names(Kind::chart), invalid_names(Kind::boundary), invalid_names(Kind::corner)};
-        State best;
-        for (const Patch& patch : proposals) {
-            judge_.apply(before, patch, state_);
-            for (const Operator& o : kValidityOperators) for_each_invalid(o, skip[static_cast<int>(o.kind)]);
-            if (improves(state_, before) && (best.labels.empty() || state_.score.loss < best.score.loss)) std::swap(state_, best);
+    template <class Propose>
+    void for_each_turning_point(const Propose& o) {
+        for (bool kept = true; kept;) {
+            kept = false;
+            for (std::size_t i = 0; i < state_.turning.points.size(); i++) {
+                const TurningPoint t = state_.turning.points[i];
+                if (untried(o.name, t.vertex, charts_at(Kind::boundary, t.boundary))) kept = once(o.name, t.vertex, o.propose(mesh_, state_, t)) || kept;
+            }
         }
-        const bool kept = !best.labels.empty();
-        state_ = kept ? std::move(best) : before;
-        return kept;
     }
 
-    template <class Operator>
-    void for_each_turning_point(const char* operation, const Operator& apply) {
-        for (std::size_t i = 0; i < state_.turning.points.size();) {
-            const TurningPoint t = state_.turning.points[i];
-            i = once(operation, t.vertex, apply(state_, t)) ? 0 : i + 1;
+    void straighten_boundaries() {
+        for (bool kept = true; kept;) {
+            kept = false;
+            for (Index b = 0; b < count(state_, Kind::boundary); b++)
+                if (untried("straighten-boundary", name(state_, Kind::boundary, b), charts_at(Kind::boundary, b)))
+                    kept = once("straighten-boundary", b, straighten_boundary(mesh_, state_, b)) || kept;
         }
     }
 
@@ -167,15 +213,49 @@ private:
         }
     }
 
-    void straighten_boundaries() {
-        for (Index b = 0; b < count(state_, Kind::boundary) && state_.turning.vertices > 0;) b = once("straighten-boundary", b, straighten_boundary(mesh_, state_, b)) ? 0 : b + 1;
+    // ---- sequences
+
+    // Some repairs make things worse before they get better: each proposal is taken as it is, the operators mend what it
+    // broke, and the best of these ends is kept if it improves the score.
+    void for_each_in_sequence(const ValidityOperator& o) {
+        for (Index i = 0; i < count(state_, o.kind); i++) {
+            if (!invalid(state_, o.kind, i)) continue;
+            const Step step = sequence(o.propose(mesh_, state_, i));
+            if (options_.trace && step.proposals > 0) options_.trace({std::string("sequence-of-") + o.name, i, false, step.kept, step.proposals, step.facets, step.before, step.after});
+        }
+    }
+
+    Step sequence(const Proposals& proposals) {
+        const State before = state_;
+        State best = before;
+        Step step{"", kNone, false, false, static_cast<Index>(proposals.size()), 0, before.score, before.score};
+        for (const Kind kind : {Kind::chart, Kind::boundary, Kind::corner})
+            for (Index i = 0; i < count(state_, kind); i++)
+                if (invalid(state_, kind, i)) invalid_before_[static_cast<int>(kind)].insert(name(state_, kind, i));
+        in_sequence_ = true;
+        for (const Patch& patch : proposals) {
+            judge_.apply(before, patch, state_);
+            for (const ValidityOperator& o : kValidityOperators) for_each_invalid(o);
+            if (!improves(state_, before) || (step.kept && state_.score.loss >= best.score.loss)) continue;
+            step.kept = true;
+            std::swap(state_, best);
+        }
+        in_sequence_ = false;
+        for (std::set<Index>& names : invalid_before_) names.clear();
+        state_ = std::move(best);
+        step.after = state_.score;
+        for (Index f = 0; f < mesh_.facets(); f++) step.facets += state_.labels[f] != before.labels[f];
+        return step;
     }
 
     const TriMesh& mesh_;
     const RoutineOptions& options_;
     Judge judge_;
     State state_;
-    std::int64_t loss_limit_ = std::numeric_limits<std::int64_t>::max();
+    std::int64_t loss_limit_ = 0;
+    bool in_sequence_ = false;
+    std::set<Index> invalid_before_[3];   // by kind, in a sequence: names of what was invalid at its start
+    std::set<std::tuple<std::string, Index, std::uint64_t, std::int64_t>> tried_;
     State trial_, best_;   // memory of once()
 };
 
@@ -184,7 +264,7 @@ private:
 State run_routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options) { return Routines(mesh, std::move(start), options).run(); }
 
 std::string trace_line(const Step& step) {
-    std::string line = step.operation;
+    std::string line = (step.in_sequence ? "| " : "") + step.operation;
     const auto number = [&](Index i) {
         line += ' ';
         append(line, i);

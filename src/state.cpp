@@ -2,12 +2,6 @@
 
 namespace polylab {
 
-namespace {
-
-constexpr double kLossUnit = 1e6;
-
-}  // namespace
-
 Judge::Judge(const TriMesh& mesh, bool allow_opposite, Labeling locks) : mesh_(mesh), allow_opposite_(allow_opposite), locks_(std::move(locks)) {
     loss_.resize(mesh.facets());
     for (Index f = 0; f < mesh.facets(); f++)

@@ -15,6 +15,7 @@ namespace polylab {
 struct Step {
     std::string operation;
     Index element = kNone;      // chart, boundary or corner number; the vertex of a turning-point
+    bool in_sequence = false;   // part of a sequence that may be given up as a whole
     bool kept = false;
     Index proposals = 0;        // how many variants were tried
     Index facets = 0;           // of the best one: how many facets it relabels
@@ -32,7 +33,8 @@ struct RoutineOptions {
 // Bounded: each kept step lowers the score, and a pass that keeps none is the last.
 State run_routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options = {});
 
-// A line per step: `operation element kept|refused proposals facets before… after…`, scores as `invalid turning-points loss`.
+// A line per step: `operation element kept|refused proposals facets before… after…`, scores as `invalid turning-points loss`,
+// with `| ` in front inside sequences.
 std::string trace_line(const Step& step);
 
 }  // namespace polylab

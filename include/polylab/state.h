@@ -43,6 +43,7 @@ struct State {
 // feature edges that are lost, in integers: a labeling may lose 1 % of the feature edges for 0.005 of mean fidelity.
 // Neither extreme is right: a part can keep every edge by labels that point away from their facets.
 inline constexpr double kLostWeight = 0.5;
+inline constexpr double kLossUnit = 1e6;   // the loss of a facet whose fidelity is 0
 
 class Judge {
 public:
