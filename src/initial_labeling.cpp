@@ -11,6 +11,7 @@ namespace {
 constexpr double kDataSigma = 0.20, kPairwiseSigma = 0.25;   // published code; the forms come from Evocube
 constexpr int kCostScale = 100;
 constexpr int kCycles = 2;
+constexpr Index kLockCost = 100000;   // published code
 
 }  // namespace
 
@@ -70,8 +71,12 @@ PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) 
     return energy;
 }
 
-Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options) {
-    return alpha_expansion(labeling_energy(mesh, options), Labeling(mesh.facets(), 0), kCycles);
+Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options, const Labeling& locks) {
+    PottsEnergy energy = labeling_energy(mesh, options);
+    for (std::size_t f = 0; f < locks.size(); f++)
+        for (Label l = 0; l < kLabels; l++)
+            if (locks[f] != kNoLabel && locks[f] != l) energy.data[f][l] += kLockCost;
+    return alpha_expansion(energy, Labeling(mesh.facets(), 0), kCycles);
 }
 
 }  // namespace polylab

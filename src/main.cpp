@@ -103,13 +103,35 @@ Judged judge(const TriMesh& mesh, const Labeling& labels) {
 
 ExitStatus status_of(const Statistics& s) { return s.result_class() == Class::invalid ? kNotValid : kDone; }
 
+// The paper's routines, with a line of progress per step that is kept, and the trace if one is wanted.
+Labeling run_full(const TriMesh& mesh, Labeling start, Labeling locks, const Arguments& arguments, const Console& console) {
+    const std::string routine = arguments.get("--routine", "both");
+    std::string trace;
+    RoutineOptions options;
+    options.validity = routine != "monotonicity";
+    options.monotonicity = routine != "validity";
+    options.locks = std::move(locks);
+    options.trace = [&](const Step& step) {
+        if (arguments.has("--trace")) trace += trace_line(step);
+        if (step.kept && !step.in_sequence)
+            console.detail(step.operation + ": " + std::to_string(step.after.invalid) + " invalid, " + std::to_string(step.after.turning_points) + " turning-points left");
+    };
+    Labeling labels = run_routines(mesh, std::move(start), options).labels;
+    if (arguments.has("--trace")) write_file(arguments.get("--trace"), trace);
+    return labels;
+}
+
 int run_label(const Arguments& arguments) {
     const Console console(arguments);
     const Stopwatch watch;
     const std::string method = arguments.get("--method", "full"), output = arguments.get("-o", "-");
     if (method != "full" && method != "graphcut" && method != "naive")
         throw UsageError("--method: expected 'full', 'graphcut' or 'naive', found '" + method + "'");
-    if (arguments.has("--init") && method != "full") throw UsageError("--init only goes with --method full");
+    for (const char* name : {"--init", "--trace", "--routine"})
+        if (arguments.has(name) && method != "full") throw UsageError(std::string(name) + " only goes with --method full");
+    const std::string routine = arguments.get("--routine", "both");
+    if (routine != "validity" && routine != "monotonicity" && routine != "both")
+        throw UsageError("--routine: expected 'validity', 'monotonicity' or 'both', found '" + routine + "'");
     InitialOptions initial;
     initial.compactness = arguments.integer("--compactness", initial.compactness, 0, 1000);
     initial.fidelity = arguments.integer("--fidelity", initial.fidelity, 0, 1000);
@@ -118,14 +140,18 @@ int run_label(const Arguments& arguments) {
 
     const TriMesh mesh = read_part(arguments, console);
     console.detail("read and built in " + watch.seconds());
-    Labeling labels;
+    Labeling locks, labels;
+    if (arguments.has("--lock")) locks = read_labels(arguments.get("--lock"), mesh.facets(), /* allow_free= */ true);
     if (arguments.has("--init"))
         labels = read_labels(arguments.get("--init"), mesh.facets());
     else if (method == "naive")
         labels = naive_labeling(mesh);
     else
-        labels = graphcut_labeling(mesh, initial);
-    if (method == "full") labels = run_routines(mesh, std::move(labels)).labels;
+        labels = graphcut_labeling(mesh, initial, locks);
+    for (std::size_t f = 0; f < locks.size(); f++)
+        if (locks[f] != kNoLabel) labels[f] = locks[f];
+    console.detail("initial labeling after " + watch.seconds());
+    if (method == "full") labels = run_full(mesh, std::move(labels), std::move(locks), arguments, console);
     const Judged result = judge(mesh, labels);
     if (arguments.has("--stats")) write_file(arguments.get("--stats"), statistics_json(result.statistics, explain(mesh, result.graph)));
     write_file(output, labels_text(labels));
@@ -209,8 +235,12 @@ const std::vector<Command>& commands() {
          "Gives every triangle of a CAD part one of six labels so that they form a polycube.\n\n" + kPartHelp,
          {kOutput,
           {"--init", "LABELS", "start from these labels instead of the graph-cut's"},
+          {"--lock", "LABELS", "one label per facet that it must keep, or -1 to leave it free"},
           {"--method", "METHOD", "full (default), or one of the initial labelings: graphcut, naive"},
+          {"--routine", "NAME", "of the full method: validity, monotonicity, or both (default)"},
           {"--stats", "JSON", "also write the statistics of the result"},
+          {"--trace", "FILE", "also write a line per operator application: operator, element, kept or refused,\n"
+                              "proposals, facets changed, then invalid elements, turning-points and loss before and after"},
           {"--compactness", "N", "graph-cut: weight of separating neighbours (default 1)"},
           {"--fidelity", "N", "graph-cut: weight of leaving the normal (default 3)"},
           {"--sensitivity", "X", "graph-cut: tilt facets whose two best labels are closer than X (default 1e-9)"},

@@ -27,7 +27,7 @@ struct Counter : doctest::IReporter {
 
 REGISTER_LISTENER("counter", 1, Counter);
 
-}  // namespace
+}   // namespace
 
 int main(int argc, char** argv) {
     doctest::Context context(argc, argv);

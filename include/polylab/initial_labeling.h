@@ -34,6 +34,7 @@ int pairwise_cost(const Vec3& normal, const Vec3& neighbour, int compactness);
 PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options = {});
 
 // Alpha-expansion of that energy, two cycles from +X everywhere. O(n) but for the max-flow.
-Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options = {});
+// Facets with a label in `locks` (empty: none) get it: any other costs 100000 more.
+Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options = {}, const Labeling& locks = {});
 
 }  // namespace polylab

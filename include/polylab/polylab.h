@@ -3,13 +3,14 @@
 //   #include <polylab/polylab.h>
 //
 //   polylab::TriMesh mesh = polylab::read_surface("part.obj");         // or build_mesh() from your own arrays
-//   polylab::Labeling labels = polylab::graphcut_labeling(mesh);
+//   polylab::Labeling labels = polylab::label_polycube(mesh);
 //   polylab::write_file("labels.txt", polylab::labels_text(labels));
 #pragma once
 
 #include "polylab/costs.h"
 #include "polylab/initial_labeling.h"
 #include "polylab/io.h"
+#include "polylab/routines.h"
 #include "polylab/statistics.h"
 #include "polylab/tet_surface.h"
 #include "polylab/text.h"
@@ -22,5 +23,8 @@ inline constexpr const char* kVersion = "0.1.0";
 
 // Reads a surface (.obj, .stl, .mesh), or the surface of a tet mesh (.mesh), and builds it. Throws InputError.
 TriMesh read_surface(const std::string& path, const FeatureOptions& features = {});
+
+// The whole method: graph-cut, then both routines with their defaults. statistics() tells what the result is worth.
+Labeling label_polycube(const TriMesh& mesh);
 
 }  // namespace polylab
