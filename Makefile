@@ -2,7 +2,7 @@
 
 # Library sources src/NAME.cpp in the order of their dependence; src/main.cpp is the program.
 MODULES = costs orientation mesh text io tet_surface maxflow alpha_expansion initial_labeling labeling_graph turning_points json statistics \
-          explain diff polylab cli state paths validity_operators quality_operators routines
+          explain diff polylab cli state paths validity_operators quality_operators routines stages
 TESTS = $(wildcard tests/*.cpp)
 
 # To choose on the command line: config=release|debug|sanitize|coverage  werror=1  builddir=DIR  verbose=1  CXX=…  CXXFLAGS=…

@@ -19,7 +19,7 @@ public:
 
     void build() {
         find_charts();
-        mark_borders();
+        list_borders();
         find_rings();
         number_corners();
         trace_boundaries();
@@ -28,7 +28,8 @@ public:
     }
 
 private:
-    // Flood from the smallest facet that has no chart yet, so charts are numbered by their smallest facet.
+    // Flood from the smallest facet that has no chart yet, so charts are numbered by their smallest facet. What stops the
+    // flood is a border.
     void find_charts() {
         for (Index seed = 0; seed < mesh_.facets(); seed++) {
             if (g_.chart[seed] != kNone) continue;
@@ -44,21 +45,21 @@ private:
                 chart.facets++;
                 for (Index h = 3 * f; h < 3 * f + 3; h++) {
                     const Index other = mesh_.right(h);
-                    if (labels_[other] != chart.label || g_.chart[other] != kNone) continue;
-                    g_.chart[other] = c;
-                    stack_.push_back(other);
+                    if (labels_[other] != chart.label) {
+                        g_.boundary[h] = kBorder;
+                    } else if (g_.chart[other] == kNone) {
+                        g_.chart[other] = c;
+                        stack_.push_back(other);
+                    }
                 }
             }
             g_.charts.push_back(chart);
         }
     }
 
-    void mark_borders() {
-        for (Index h = 0; h < mesh_.halfedges(); h++) {
-            if (labels_[facet(h)] == labels_[mesh_.right(h)]) continue;
-            g_.boundary[h] = kBorder;
-            borders_.push_back(h);
-        }
+    void list_borders() {
+        for (Index h = 0; h < mesh_.halfedges(); h++)
+            if (g_.boundary[h] == kBorder) borders_.push_back(h);
     }
 
     // Rings of the vertices with three and more border half-edges; g_.corner holds their number meanwhile. Most vertices

@@ -4,7 +4,7 @@
 #include "polylab/diff.h"
 #include "polylab/explain.h"
 #include "polylab/polylab.h"
-#include "polylab/routines.h"
+#include "polylab/stages.h"
 
 #include <chrono>
 #include <cstdio>
@@ -217,6 +217,12 @@ int run_surface(const Arguments& arguments) {
     return kDone;
 }
 
+int run_stage(const Arguments& arguments) {
+    const TriMesh mesh = read_surface(arguments.operands[1]);
+    write_file(arguments.get("-o", "-"), stage_text(mesh, arguments.operands[0]));
+    return kDone;
+}
+
 int run_volume_labels(const Arguments& arguments) {
     const SurfaceMap map = read_surface_map(arguments.operands[1]);
     const Labeling labels = read_labels(arguments.operands[0], static_cast<Index>(map.tet_facet.size()));
@@ -277,6 +283,13 @@ const std::vector<Command>& commands() {
          "Carries surface labels to the facets of the tetrahedra: four labels per tetrahedron, -1 inside.",
          {kOutput},
          run_volume_labels},
+        {"stage",
+         {"NAME", "PART"},
+         "Prints one stage of the method as text, to compare a port with.\n\n"
+         "NAME is mesh, costs, naive, tilted, graphcut, graph, turning-points, trace, labels or statistics; all options are at\n"
+         "their defaults. golden/README.md explains the texts.",
+         {kOutput},
+         run_stage},
     };
     return table;
 }

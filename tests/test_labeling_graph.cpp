@@ -61,7 +61,8 @@ bool associable(const std::vector<int>& axes, bool allow_opposite) {
     }
     std::sort(left.begin(), left.end());
     if (!left.empty() && left.front() == left.back()) return left.size() == 2;
-    for (auto twin = left.begin(); (twin = std::adjacent_find(left.begin(), left.end())) != left.end();) left.erase(twin, twin + 2);
+    for (auto twin = left.begin(); (twin = std::adjacent_find(left.begin(), left.end())) != left.end();)
+        left.erase(twin, twin + 2);
     return left.empty() || left == "XYZ";
 }
 
@@ -102,7 +103,8 @@ std::string reference_text(const TriMesh& mesh, const Labeling& labels, bool all
     std::map<Index, std::vector<std::vector<Index>>> rings;   // vertex -> rings, by smallest half-edge
     for (Index h = 0; h < mesh.halfedges(); h++) {
         const std::vector<Index> ring = fan(h);
-        if (border(h) && ring.size() >= 3 && h == *std::min_element(ring.begin(), ring.end())) rings[mesh.from(h)].push_back(ring);
+        if (border(h) && ring.size() >= 3 && h == *std::min_element(ring.begin(), ring.end()))
+            rings[mesh.from(h)].push_back(ring);
     }
     const std::set<Index> charts(chart.begin(), chart.end());
     std::set<Index> boundaries(boundary.begin(), boundary.end());
@@ -121,8 +123,8 @@ std::string reference_text(const TriMesh& mesh, const Labeling& labels, bool all
         std::set<Index> around;
         for (Index h = 0; h < mesh.halfedges(); h++)
             if (chart[facet(h)] == c && border(h)) around.insert(boundary[h]);
-        text << "chart " << number(charts, c) << ' ' << int(labels[c]) << ' ' << c << ' ' << std::count(chart.begin(), chart.end(), c)
-             << ' ' << (around.size() >= 4);
+        text << "chart " << number(charts, c) << ' ' << int(labels[c]) << ' ' << c << ' '
+             << std::count(chart.begin(), chart.end(), c) << ' ' << (around.size() >= 4);
         for (const Index b : around) text << ' ' << number(boundaries, b);
         text << '\n';
     }
@@ -137,8 +139,9 @@ std::string reference_text(const TriMesh& mesh, const Labeling& labels, bool all
             convex = convex || dot(cross(mesh.area_vector(facet(h)), mesh.area_vector(mesh.right(h))), mesh.vector(h)) > 0;
         }
         text << "boundary " << number(boundaries, b) << ' ' << number(charts, chart[facet(b)]) << ' '
-             << number(charts, chart[mesh.right(b)]) << ' ' << corner_at(chain[0]) << ' ' << corner_at(mesh.opposite[chain.back()]) << ' '
-             << boundary_axis(b) << ' ' << on_features << ' ' << (boundary_axis(b) != kNone || (allow_opposite && !convex));
+             << number(charts, chart[mesh.right(b)]) << ' ' << corner_at(chain[0]) << ' '
+             << corner_at(mesh.opposite[chain.back()]) << ' ' << boundary_axis(b) << ' ' << on_features << ' '
+             << (boundary_axis(b) != kNone || (allow_opposite && !convex));
         for (const Index h : chain) text << ' ' << h;
         text << '\n';
     }
@@ -205,16 +208,23 @@ void alternate(const TriMesh& mesh, Labeling& labels, Index h, Label a, Label b)
 }
 
 std::vector<MeshData> all_shapes() {
-    return {shapes::pillow(),       shapes::tetrahedron(),
-            shapes::octahedron(),   shapes::tetrahedron_with_flat_facet(),
-            cube(1),                cube(3),
-            shapes::l_shape(),      shapes::creased(shapes::stair(3)),
-            shapes::frame(),        shapes::hollow_box(),
-            pyramid(5),             shapes::two_cubes_at_a_vertex(),
-            shapes::pinched_ring(), shapes::creased(shapes::refined(shapes::two_cubes_at_a_vertex()))};
+    return {shapes::pillow(),
+            shapes::tetrahedron(),
+            shapes::octahedron(),
+            shapes::tetrahedron_with_flat_facet(),
+            cube(1),
+            cube(3),
+            shapes::l_shape(),
+            shapes::creased(shapes::stair(3)),
+            shapes::frame(),
+            shapes::hollow_box(),
+            pyramid(5),
+            shapes::two_cubes_at_a_vertex(),
+            shapes::pinched_ring(),
+            shapes::creased(shapes::refined(shapes::two_cubes_at_a_vertex()))};
 }
 
-}  // namespace
+}   // namespace
 
 // ---- numbers and directions ----
 
@@ -549,14 +559,14 @@ TEST_CASE("labeling graph: Figures 4 and 9, corners of valence 4 and 6") {
         bool valid;
     };
     const Cell cells[] = {
-        {{kX, kY, kNegX, kNegY}, false},             // a cone: Z Z Z Z, four parallel lines can't meet
-        {{kX, kY, kX, kNegY}, false},                // the same axes on a saddle
-        {{kX, kZ, kX, kY}, true},                    // Y Y Z Z
-        {{kX, kY, kNegX, kZ}, true},                 // Z Z Y Y, opposite labels across
-        {{kX, kY, kX, kY, kX, kY}, false},           // Z six times
-        {{kX, kY, kNegX, kNegY, kX, kNegY}, false},  // the same axes by other labels
-        {{kX, kY, kZ, kX, kY, kZ}, true},            // Z X Y Z X Y: pairs
-        {{kX, kY, kNegX, kY, kX, kZ}, true},         // Z Z Z Z Y Y: pairs
+        {{kX, kY, kNegX, kNegY}, false},              // a cone: Z Z Z Z, four parallel lines can't meet
+        {{kX, kY, kX, kNegY}, false},                 // the same axes on a saddle
+        {{kX, kZ, kX, kY}, true},                     // Y Y Z Z
+        {{kX, kY, kNegX, kZ}, true},                  // Z Z Y Y, opposite labels across
+        {{kX, kY, kX, kY, kX, kY}, false},            // Z six times
+        {{kX, kY, kNegX, kNegY, kX, kNegY}, false},   // the same axes by other labels
+        {{kX, kY, kZ, kX, kY, kZ}, true},             // Z X Y Z X Y: pairs
+        {{kX, kY, kNegX, kY, kX, kZ}, true},          // Z Z Z Z Y Y: pairs
     };
     for (const Cell& cell : cells) {
         const Index n = static_cast<Index>(cell.sides.size());
@@ -594,16 +604,14 @@ TEST_CASE("labeling graph: rings next to boundaries between opposite labels") {
     };
     const int o = kNone;
     const Row rows[] = {
-        {{o, 2, 2}, true},            // both masked: nothing is left, the vertex is inside
-        {{o, 2, 2, o}, true},
-        {{o, o, o}, true},
-        {{o, 2, 0, 1}, false},        // X alone is left
-        {{o, 2, 0, 0, 1}, true},      // a pair X: the vertex lies on a boundary
-        {{o, 2, 0, 1, 1}, false},     // X Y: neither pair nor trio
-        {{o, 2, 0, 1, 2, 2}, true},   // X Y Z
-        {{2, 0, 1, 2, o, 2}, true},   // the same, read from elsewhere
-        {{o, 2, 0, 0, 0, 2}, false},  // X three times
-        {{0, 1, 2, o, 1, 1}, false},  // X and a pair Y
+        {{o, 2, 2}, true},   // both masked: nothing is left, the vertex is inside
+        {{o, 2, 2, o}, true},        {{o, o, o}, true}, {{o, 2, 0, 1}, false},   // X alone is left
+        {{o, 2, 0, 0, 1}, true},                                                 // a pair X: the vertex lies on a boundary
+        {{o, 2, 0, 1, 1}, false},                                                // X Y: neither pair nor trio
+        {{o, 2, 0, 1, 2, 2}, true},                                              // X Y Z
+        {{2, 0, 1, 2, o, 2}, true},                                              // the same, read from elsewhere
+        {{o, 2, 0, 0, 0, 2}, false},                                             // X three times
+        {{0, 1, 2, o, 1, 1}, false},                                             // X and a pair Y
     };
     for (const Row& row : rows) {
         CAPTURE(row.axes);
@@ -617,7 +625,8 @@ TEST_CASE("labeling graph: every ring of up to seven axes is judged as the paper
         for (int code = 0; code < 1 << (2 * n); code++) {
             std::vector<int> axes;
             for (std::size_t i = 0; i < n; i++) axes.push_back((code >> (2 * i)) % 4 - 1);
-            const bool right = valid_ring(axes, true) == associable(axes, true) && valid_ring(axes, false) == associable(axes, false);
+            const bool right =
+                valid_ring(axes, true) == associable(axes, true) && valid_ring(axes, false) == associable(axes, false);
             CAPTURE(n);
             CAPTURE(code);
             REQUIRE(right);

@@ -48,8 +48,17 @@ Labeling hooked_cube() {
 // Everything that doesn't depend on numbers and axes: all but the published turning-points.
 void check_same(const Statistics& a, const Statistics& b) {
     const auto counts = [](const Statistics& s) {
-        return std::array{s.facets,          s.charts,  s.boundaries,         s.corners,            s.invalid_charts, s.invalid_boundaries,
-                          s.invalid_corners, s.own_turning_points, s.features_preserved, s.features_lost,  s.features_ignored};
+        return std::array{s.facets,
+                          s.charts,
+                          s.boundaries,
+                          s.corners,
+                          s.invalid_charts,
+                          s.invalid_boundaries,
+                          s.invalid_corners,
+                          s.own_turning_points,
+                          s.features_preserved,
+                          s.features_lost,
+                          s.features_ignored};
     };
     CHECK(counts(a) == counts(b));
     const auto close = [](double x, double y) { return std::abs(x - y) < 1e-12; };
@@ -70,7 +79,7 @@ std::vector<MeshData> symmetric_test_shapes() {
             shapes::refined(shapes::refined(shapes::octahedron()))};
 }
 
-}  // namespace
+}   // namespace
 
 // ---- fidelity ----
 
@@ -82,7 +91,7 @@ TEST_CASE("statistics: fidelity of one facet") {
     CHECK(fidelity({half, half, 0}, kX) == Approx(0.853553).epsilon(1e-6));
     CHECK(fidelity({half, half, 0}, kNegY) == Approx(0.146447).epsilon(1e-5));
     CHECK(fidelity({0, 0.5, -0.6 * std::sqrt(3.0)}, kY) == Approx(0.75));   // 60 degrees: the cosine is all that counts
-    CHECK(fidelity({0, 0, 0}, kX) == 0.5);   // no normal
+    CHECK(fidelity({0, 0, 0}, kX) == 0.5);                                  // no normal
 }
 
 TEST_CASE("statistics: fidelity over facets") {
@@ -218,7 +227,8 @@ TEST_CASE("statistics: the summary has two lines") {
     CHECK(summary(statistics_of(mesh, naive_labeling(mesh))) ==
           "valid, all monotone: 6 charts (0 invalid), 12 boundaries (0 invalid), 8 corners (0 invalid), 0 turning-points\n"
           "fidelity 1.0000 on average, 1.0000 at least; feature edges: 72 preserved, 0 lost, 0 ignored");
-    // Ten of 432 facets are +X instead of +Z (1/2): the average is 1 - 5/432. The square (5,4) takes one edge away from the border.
+    // Ten of 432 facets are +X instead of +Z (1/2): the average is 1 - 5/432. The square (5,4) takes one edge away from the
+    // border.
     CHECK(summary(statistics_of(mesh, hooked_cube())) ==
           "valid, with turning-points: 6 charts (0 invalid), 12 boundaries (0 invalid), 8 corners (0 invalid), 2 turning-points\n"
           "fidelity 0.9884 on average, 0.5000 at least; feature edges: 71 preserved, 1 lost, 0 ignored");

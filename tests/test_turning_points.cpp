@@ -67,9 +67,8 @@ bool chain_turns_right(const Chain& chain, bool closed) {
     const std::vector<Along> best = optima(chain, closed);
     const bool plus = ((best.back() >> (n - 1)) & 1) == 1;   // the largest one
     const std::vector<Index> found = chain_turns(chain, closed);
-    return std::any_of(best.begin(), best.end(), [&](Along along) {
-        return turns(along, n, closed) == found && (!plus || ((along >> (n - 1)) & 1) == 1);
-    });
+    return std::any_of(best.begin(), best.end(),
+                       [&](Along along) { return turns(along, n, closed) == found && (!plus || ((along >> (n - 1)) & 1) == 1); });
 }
 
 // The published rule: solved as an open chain; all -axis if that is as good as any, else +axis wherever there is a choice,
@@ -204,7 +203,7 @@ std::array<double, 2> angles(const TriMesh& mesh, const LabelingGraph& graph, co
     return sums;
 }
 
-}  // namespace
+}   // namespace
 
 // ---- chains ----
 
@@ -231,13 +230,13 @@ TEST_CASE("turning-points: chains that can be seen at a glance") {
     CHECK(chain_turns(drawn("AAAA"), false).empty());
     CHECK(chain_turns(drawn("VVVV"), false).empty());
     CHECK(chain_turns(drawn(">>>>"), false).empty());
-    CHECK(chain_turns(drawn("A>A>A<A<A"), false).empty());   // jagged, but never back
-    CHECK(chain_turns(drawn("AAV>AA"), false).empty());      // 46 back, or 13 + 60 to turn twice
-    CHECK(chain_turns(drawn("A>V"), false).empty());         // 46, or 60 to turn
-    CHECK(chain_turns(drawn("AA>VV"), false) == Positions{2});      // 92, or 60 at one end of the edge across: the smaller
-    CHECK(chain_turns(drawn("AA>>>VV"), false) == Positions{2});    // 100 in the middle of the edges across
+    CHECK(chain_turns(drawn("A>A>A<A<A"), false).empty());         // jagged, but never back
+    CHECK(chain_turns(drawn("AAV>AA"), false).empty());            // 46 back, or 13 + 60 to turn twice
+    CHECK(chain_turns(drawn("A>V"), false).empty());               // 46, or 60 to turn
+    CHECK(chain_turns(drawn("AA>VV"), false) == Positions{2});     // 92, or 60 at one end of the edge across: the smaller
+    CHECK(chain_turns(drawn("AA>>>VV"), false) == Positions{2});   // 100 in the middle of the edges across
     CHECK(chain_turns(drawn("AAAVVV"), false) == Positions{3});
-    CHECK(chain_turns(drawn("AAAA>VV>AAAA"), false).empty());       // 92, or 120
+    CHECK(chain_turns(drawn("AAAA>VV>AAAA"), false).empty());               // 92, or 120
     CHECK(chain_turns(drawn("AAAA>VVV>AAAA"), false) == Positions{4, 8});   // 138, or 120
     // Closed: sides of two edges cost 92 against, two turns cost 120; sides of three edges 138.
     CHECK(chain_turns(drawn("AA>>VV<<"), true).empty());
@@ -304,7 +303,8 @@ TEST_CASE("turning-points: neither the direction nor the start of a boundary mat
             // Where different sets have one sum their number is still the same.
             CHECK(vertices(reversed(tied), closed).size() == vertices(tied, closed).size());
             with_turns += !expected.empty();
-            number_differs += published_chain_turns(chain, closed).size() != published_chain_turns(reversed(chain), closed).size();
+            number_differs +=
+                published_chain_turns(chain, closed).size() != published_chain_turns(reversed(chain), closed).size();
         }
         for (Index first = 1; first < n; first++) CHECK(vertices(started_at(chain, first), true) == vertices(chain, true));
     }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# check_lists.sh: Makefile and CMakeLists.txt name every source in src/ and no other.
+# check_lists.sh: Makefile and CMakeLists.txt name every source in src/ and no other, and all files state one version.
 cd "$(dirname "$0")/.." || exit 2
 status=0
 on_disk=$(for file in src/*.cpp; do basename "$file" .cpp; done | grep -v '^main$' | sort)
@@ -12,4 +12,7 @@ for list in make cmake; do
         status=1
     done
 done
+version=$(sed -n 's/.*kVersion = "\(.*\)".*/\1/p' include/polylab/polylab.h)
+grep -q "^project(polylab VERSION $version " CMakeLists.txt || { echo "CMakeLists.txt: expected version $version" >&2; status=1; }
+grep -q "^version: $version\$" CITATION.cff || { echo "CITATION.cff: expected version $version" >&2; status=1; }
 exit $status
