@@ -43,7 +43,7 @@ dry_run = $(findstring n,$(firstword -$(MAKEFLAGS)))
 
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
-.PHONY: all demo test doctest static amalgamated coverage install format format-fix tidy clean help FORCE
+.PHONY: all demo test golden golden-update remarks doctest static amalgamated coverage install format format-fix tidy clean help FORCE
 
 all: $(program)
 
@@ -89,6 +89,16 @@ $(tests): $(test_objects) $(library)
 doctest:
 	@$(if $(or $(dry_run),$(shell tools/get_doctest.sh $(CXX) $(CPPFLAGS) && echo found)),:,$(error tests need the header doctest/doctest.h; type: sudo apt-get install doctest-dev))
 
+# The conformance kit; update rewrites named cases and ends with an error, so that it can't pass for a test.
+golden: $(program)
+	@tools/golden.sh compare $(program)
+golden-update: $(program)
+	@tools/golden.sh update $(program) $(CASE)
+
+# What a port has to know: rules between equals, traps, and where the paper or the published code is left.
+remarks:
+	@grep -rnE 'tie:|port:|differs:' include src
+
 static: $(builddir)/polylab-static
 $(builddir)/polylab-static: $(objects)/src/main.o $(library)
 	$(say)
@@ -131,6 +141,8 @@ help:
 	@echo "make              build/polylab and build/libpolylab.a"
 	@echo "make demo         labels the CAD model $(demo_model)"
 	@echo "make test         builds and runs the tests (doctest)"
+	@echo "make golden       compares with the golden cases; golden-update CASE=... rewrites some"
+	@echo "make remarks      lists the rules between equals, traps for ports, and differences from the paper"
 	@echo "make static       build/polylab-static, one file that runs anywhere"
 	@echo "make amalgamated  all sources as one translation unit"
 	@echo "make coverage     which share of the lines the tests run"

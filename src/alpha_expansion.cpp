@@ -61,4 +61,4 @@ Labeling alpha_expansion(const PottsEnergy& energy, Labeling start, int cycles) 
     return start;
 }
 
-}  // namespace polylab
+}   // namespace polylab

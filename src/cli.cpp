@@ -48,7 +48,8 @@ Arguments parse_arguments(const Command& command, const std::vector<std::string>
         }
         const std::size_t equal = word.rfind("--", 0) == 0 ? word.find('=') : std::string::npos;
         const std::string name = word.substr(0, equal);
-        const auto option = std::find_if(command.options.begin(), command.options.end(), [&](const Option& o) { return o.name == name; });
+        const auto option =
+            std::find_if(command.options.begin(), command.options.end(), [&](const Option& o) { return o.name == name; });
         if (option == command.options.end()) throw UsageError("unknown option " + name);
         if (arguments.has(name)) throw UsageError("option " + name + " is given twice");
         if (option->value.empty()) {
@@ -62,8 +63,10 @@ Arguments parse_arguments(const Command& command, const std::vector<std::string>
             throw UsageError("option " + name + " needs a value: " + option->value);
         }
     }
-    if (arguments.operands.size() < command.operands.size()) throw UsageError("missing " + command.operands[arguments.operands.size()]);
-    if (arguments.operands.size() > command.operands.size()) throw UsageError("unexpected '" + arguments.operands[command.operands.size()] + "'");
+    if (arguments.operands.size() < command.operands.size())
+        throw UsageError("missing " + command.operands[arguments.operands.size()]);
+    if (arguments.operands.size() > command.operands.size())
+        throw UsageError("unexpected '" + arguments.operands[command.operands.size()] + "'");
     return arguments;
 }
 
@@ -86,4 +89,4 @@ std::string help(const std::string& program, const Command& command) {
     return text;
 }
 
-}  // namespace polylab
+}   // namespace polylab

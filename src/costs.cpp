@@ -9,7 +9,7 @@ double gaussian(double x, double sigma) {
     return std::exp(-0.5 * (t * t));
 }
 
-}  // namespace
+}   // namespace
 
 int bell_cost(double x, double sigma, int scale) { return static_cast<int>(scale * gaussian(x, sigma)); }
 
@@ -37,4 +37,4 @@ SinCos sin_cos(double radians) {
     return {sine, cosine};
 }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -22,7 +22,8 @@ std::vector<ChangedPatch> changed_patches(const TriMesh& mesh, const Labeling& a
         }
         patches.push_back(std::move(patch));
     }
-    std::stable_sort(patches.begin(), patches.end(), [](const ChangedPatch& p, const ChangedPatch& q) { return p.facets.size() > q.facets.size(); });
+    std::stable_sort(patches.begin(), patches.end(),
+                     [](const ChangedPatch& p, const ChangedPatch& q) { return p.facets.size() > q.facets.size(); });
     return patches;
 }
 
@@ -54,11 +55,11 @@ std::string diff_text(const TriMesh& mesh, const Labeling& a, const Labeling& b)
     }
     for (const ChangedPatch& patch : patches) {
         const Vec3& p = mesh.points[mesh.origin[3 * patch.facets[0]]];
-        std::snprintf(line, sizeof line, "%6zu facets %s -> %s, from facet %d near %.4g %.4g %.4g\n", patch.facets.size(), kLabelName[patch.before],
-                      kLabelName[patch.after], patch.facets[0], p.x, p.y, p.z);
+        std::snprintf(line, sizeof line, "%6zu facets %s -> %s, from facet %d near %.4g %.4g %.4g\n", patch.facets.size(),
+                      kLabelName[patch.before], kLabelName[patch.after], patch.facets[0], p.x, p.y, p.z);
         text += line;
     }
     return text;
 }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -46,7 +46,9 @@ private:
             if (graph_.charts[graph_.chart[f]].valid) continue;
             Problem& p = found[graph_.chart[f]];
             const double area = norm(mesh_.area_vector(f)) / 2;
-            const Vec3 centre = (mesh_.points[mesh_.origin[3 * f]] + mesh_.points[mesh_.origin[3 * f + 1]] + mesh_.points[mesh_.origin[3 * f + 2]]) * (1.0 / 3);
+            const Vec3 centre = (mesh_.points[mesh_.origin[3 * f]] + mesh_.points[mesh_.origin[3 * f + 1]] +
+                                 mesh_.points[mesh_.origin[3 * f + 2]]) *
+                                (1.0 / 3);
             if (f == graph_.charts[graph_.chart[f]].smallest_facet) p.position = centre;
             // The running mean of the centres, weighted by area.
             p.size += area;
@@ -58,8 +60,11 @@ private:
             Problem& p = found[c];
             p.kind = Problem::Kind::chart;
             p.element = c;
-            p.text = "chart " + std::to_string(c) + " (" + kLabelName[chart.label] + ", " + count(chart.facets, "facet") + " near " + place(p.position) + "): ";
-            p.text += chart.boundaries.size() == 0 ? "no boundary" : chart.boundaries.size() == 1 ? "1 boundary" : std::to_string(chart.boundaries.size()) + " boundaries";
+            p.text = "chart " + std::to_string(c) + " (" + kLabelName[chart.label] + ", " + count(chart.facets, "facet") +
+                     " near " + place(p.position) + "): ";
+            p.text += chart.boundaries.size() == 0   ? "no boundary"
+                      : chart.boundaries.size() == 1 ? "1 boundary"
+                                                     : std::to_string(chart.boundaries.size()) + " boundaries";
             p.text += ", needs at least 4";
             const char* separator = "; neighbours ";
             for (Index i = chart.boundaries.first; i < chart.boundaries.last; i++) {
@@ -83,9 +88,11 @@ private:
                 convex += is_convex(mesh_, graph_.halfedges[i]);
             }
             p.position = mesh_.points[mesh_.from(graph_.halfedges[(boundary.halfedges.first + boundary.halfedges.last) / 2])];
-            p.text = "boundary " + std::to_string(b) + " (" + count(boundary.halfedges.size(), "edge") + " near " + place(p.position) + "): opposite labels of charts " +
-                     chart_name(boundary.left) + " and " + chart_name(boundary.right);
-            p.text += graph_.allow_opposite ? " meet at less than 180 degrees along " + count(convex, "edge") : std::string(" meet, which this run does not allow");
+            p.text = "boundary " + std::to_string(b) + " (" + count(boundary.halfedges.size(), "edge") + " near " +
+                     place(p.position) + "): opposite labels of charts " + chart_name(boundary.left) + " and " +
+                     chart_name(boundary.right);
+            p.text += graph_.allow_opposite ? " meet at less than 180 degrees along " + count(convex, "edge")
+                                            : std::string(" meet, which this run does not allow");
             problems_.push_back(p);
         }
     }
@@ -128,8 +135,9 @@ private:
             p.element = t.boundary;
             p.vertex = t.vertex;
             p.position = mesh_.points[t.vertex];
-            p.text = "turning-point at vertex " + std::to_string(t.vertex) + " (" + place(p.position) + ") on boundary " + std::to_string(t.boundary) + " (axis " +
-                     kAxisName[boundary.axis] + ") between charts " + chart_name(boundary.left) + " and " + chart_name(boundary.right);
+            p.text = "turning-point at vertex " + std::to_string(t.vertex) + " (" + place(p.position) + ") on boundary " +
+                     std::to_string(t.boundary) + " (axis " + kAxisName[boundary.axis] + ") between charts " +
+                     chart_name(boundary.left) + " and " + chart_name(boundary.right);
             problems_.push_back(p);
         }
     }
@@ -139,7 +147,7 @@ private:
     std::vector<Problem> problems_;
 };
 
-}  // namespace
+}   // namespace
 
 std::vector<Problem> explain(const TriMesh& mesh, const LabelingGraph& graph) { return Explainer(mesh, graph).explain(); }
 
@@ -152,7 +160,9 @@ std::string hint(const TriMesh& mesh) {
         if (std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}) < kCos20) tilted += a;
     }
     if (!(tilted > area / 2)) return "";
-    return format("%.0f %% of the part's area is more than 20 degrees from every axis: turn the part so that its main faces lie along X, Y and Z", 100 * tilted / area);
+    return format(
+        "%.0f %% of the part's area is more than 20 degrees from every axis: turn the part so that its main faces lie along X, Y and Z",
+        100 * tilted / area);
 }
 
 std::string statistics_json(const Statistics& s, const std::vector<Problem>& problems) {
@@ -176,4 +186,4 @@ std::string statistics_json(const Statistics& s, const std::vector<Problem>& pro
     return json.text() + "\n";
 }
 
-}  // namespace polylab
+}   // namespace polylab

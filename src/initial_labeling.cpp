@@ -13,14 +13,15 @@ constexpr int kCostScale = 100;
 constexpr int kCycles = 2;
 constexpr Index kLockCost = 100000;   // published code
 
-}  // namespace
+}   // namespace
 
 Labeling naive_labeling(const TriMesh& mesh) {
     Labeling labels(mesh.facets());
     for (Index f = 0; f < mesh.facets(); f++) {
         Label best = 0;
         for (Label l = 1; l < kLabels; l++)   // negative components count as 0, as in the published weights
-            if (std::max(0.0, along(mesh.normal[f], l)) > std::max(0.0, along(mesh.normal[f], best))) best = l;   // tie: smallest label
+            if (std::max(0.0, along(mesh.normal[f], l)) > std::max(0.0, along(mesh.normal[f], best)))
+                best = l;   // tie: smallest label
         labels[f] = best;
     }
     return labels;
@@ -41,8 +42,7 @@ std::vector<char> facets_to_tilt(const TriMesh& mesh, double sensitivity) {
 Vec3 tilted(const Vec3& n, double angle) {
     const auto [s, c] = sin_cos(angle);
     return {c * c * n.x + s * c * (s - 1) * n.y + s * (c * c + s) * n.z,
-            s * c * n.x + (s * s * s + c * c) * n.y + s * c * (s - 1) * n.z,
-            -s * n.x + s * c * n.y + c * c * n.z};
+            s * c * n.x + (s * s * s + c * c) * n.y + s * c * (s - 1) * n.z, -s * n.x + s * c * n.y + c * c * n.z};
 }
 
 int data_cost(const Vec3& normal, Label l, int fidelity) {
@@ -79,4 +79,4 @@ Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options, c
     return alpha_expansion(energy, Labeling(mesh.facets(), 0), kCycles);
 }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -70,7 +70,8 @@ private:
     void read_facet() {
         for (int k = 0; k < 3; k++) data_.triangles.push_back(read_index(in_.token_in_line()));
         if (!in_.token_in_line().empty())
-            throw InputError(in_.file(), in_.line(), "expected a triangle, found a polygon with more than three sides (triangulate the surface first)");
+            throw InputError(in_.file(), in_.line(),
+                             "expected a triangle, found a polygon with more than three sides (triangulate the surface first)");
     }
 
     void read_polyline() {
@@ -113,7 +114,7 @@ void append_elements(std::string& out, const char* head, const std::vector<Index
 struct MeditBlock {
     const char* keyword;
     int vertices;
-    std::vector<Index> MeshData::* elements;
+    std::vector<Index> MeshData::*elements;
 };
 constexpr std::array<MeditBlock, 4> kMeditBlocks = {{{"Edges", 2, &MeshData::edges},
                                                      {"Triangles", 3, &MeshData::triangles},
@@ -133,7 +134,9 @@ public:
         if (!vertices_read_) in_.fail("'Vertices'", "");
         for (const Use& use : largest_)
             if (use.vertex >= vertices())
-                throw InputError(in_.file(), use.line, "expected a vertex index from 1 to " + std::to_string(vertices()) + ", found " + std::to_string(use.vertex + 1));
+                throw InputError(in_.file(), use.line,
+                                 "expected a vertex index from 1 to " + std::to_string(vertices()) + ", found " +
+                                     std::to_string(use.vertex + 1));
         return std::move(data_);
     }
 
@@ -166,7 +169,8 @@ private:
 
     Index read_count() {
         const Index count = in_.integer("a count");
-        if (count < 0 || count > kLargestCount) in_.fail("a count from 0 to " + std::to_string(kLargestCount), std::to_string(count));
+        if (count < 0 || count > kLargestCount)
+            in_.fail("a count from 0 to " + std::to_string(kLargestCount), std::to_string(count));
         return count;
     }
 
@@ -205,7 +209,9 @@ private:
 
     // A block that means nothing here: numbers up to the next word.
     std::string_view skip_block(std::string_view keyword) {
-        const auto is_word = [](std::string_view t) { return t.empty() || (t[0] >= 'A' && t[0] <= 'Z') || (t[0] >= 'a' && t[0] <= 'z'); };
+        const auto is_word = [](std::string_view t) {
+            return t.empty() || (t[0] >= 'A' && t[0] <= 'Z') || (t[0] >= 'a' && t[0] <= 'z');
+        };
         if (!is_word(keyword)) in_.fail("a keyword", keyword);
         std::string_view token = in_.token();
         while (!is_word(token)) {
@@ -281,7 +287,8 @@ MeshData read_binary_stl(std::string_view bytes, const std::string& name) {
             Vec3 p;
             for (std::size_t a = 0; a < 3; a++) p[static_cast<int>(a)] = little_endian<float>(bytes, at + 12 + 12 * k + 4 * a);
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                throw InputError(name, 0, "facet " + std::to_string((at - kStlHead) / kStlFacet) + ": expected finite coordinates");
+                throw InputError(name, 0,
+                                 "facet " + std::to_string((at - kStlHead) / kStlFacet) + ": expected finite coordinates");
             data.triangles.push_back(welder.vertex(p));
         }
     }
@@ -320,7 +327,7 @@ MeshData read_ascii_stl(std::string_view text, const std::string& name) {
     return data;
 }
 
-}  // namespace
+}   // namespace
 
 MeshData read_obj(std::string_view text, const std::string& name) { return ObjReader(text, name).read(); }
 
@@ -397,11 +404,13 @@ Labeling read_labels_text(std::string_view text, const std::string& name, Index 
     for (std::string_view token = in.token(); !token.empty(); token = in.token()) {
         const Index l = in.to_integer(token, what);
         if (l < (allow_free ? kNoLabel : 0) || l >= kLabels) in.fail(what, token);
-        if (static_cast<Index>(labels.size()) == facets) throw InputError(name, in.line(), "expected " + std::to_string(facets) + " labels, one per facet, found more");
+        if (static_cast<Index>(labels.size()) == facets)
+            throw InputError(name, in.line(), "expected " + std::to_string(facets) + " labels, one per facet, found more");
         labels.push_back(static_cast<Label>(l));
     }
     if (static_cast<Index>(labels.size()) < facets)
-        throw InputError(name, 0, "expected " + std::to_string(facets) + " labels, one per facet, found " + std::to_string(labels.size()));
+        throw InputError(name, 0,
+                         "expected " + std::to_string(facets) + " labels, one per facet, found " + std::to_string(labels.size()));
     return labels;
 }
 
@@ -419,4 +428,4 @@ std::string labels_text(const Labeling& labels) {
     return out;
 }
 
-}  // namespace polylab
+}   // namespace polylab

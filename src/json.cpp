@@ -65,4 +65,4 @@ void JsonWriter::quote(std::string_view text) {
     out_ += '"';
 }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -186,7 +186,8 @@ private:
         }
         for (Boundary& b : g_.boundaries) {
             b.valid = b.axis != kNone || g_.allow_opposite;
-            for (Index i = b.halfedges.first; i < b.halfedges.last && b.valid && b.axis == kNone; i++) b.valid = !is_convex(mesh_, g_.halfedges[i]);
+            for (Index i = b.halfedges.first; i < b.halfedges.last && b.valid && b.axis == kNone; i++)
+                b.valid = !is_convex(mesh_, g_.halfedges[i]);
             g_.invalid_boundaries += !b.valid;
         }
         std::vector<int> axes;
@@ -195,7 +196,8 @@ private:
             for (Index r = corner.rings.first; r < corner.rings.last; r++) {
                 Ring& ring = g_.rings[r];
                 axes.clear();
-                for (Index i = ring.halfedges.first; i < ring.halfedges.last; i++) axes.push_back(g_.boundaries[g_.boundary[g_.ring_halfedges[i]]].axis);
+                for (Index i = ring.halfedges.first; i < ring.halfedges.last; i++)
+                    axes.push_back(g_.boundaries[g_.boundary[g_.ring_halfedges[i]]].axis);
                 ring.valid = valid_ring(axes, g_.allow_opposite);
                 corner.valid = corner.valid && ring.valid;
             }
@@ -211,7 +213,7 @@ private:
     std::vector<Index> ring_of_;   // half-edge -> ring in which it leaves a corner, or kNone
 };
 
-}  // namespace
+}   // namespace
 
 Index LabelingGraph::next_border_ccw(const TriMesh& mesh, Index h) const {
     do h = mesh.ccw(h);
@@ -257,8 +259,8 @@ bool valid_ring(const std::vector<int>& axes, bool allow_opposite) {
         if (axes[i] != kNone && !masked) count[axes[i]]++;
     }
     const int used = (count[0] > 0) + (count[1] > 0) + (count[2] > 0);
-    if (used == 0) return true;                                      // the vertex lies inside the volume
-    if (used == 1) return count[0] + count[1] + count[2] == 2;       // it lies on a boundary; else parallel lines meet
+    if (used == 0) return true;                                            // the vertex lies inside the volume
+    if (used == 1) return count[0] + count[1] + count[2] == 2;             // it lies on a boundary; else parallel lines meet
     return count[0] % 2 == count[1] % 2 && count[1] % 2 == count[2] % 2;   // pairs, or pairs and one trio
 }
 
@@ -284,7 +286,8 @@ std::string graph_text(const LabelingGraph& graph) {
     }
     for (std::size_t b = 0; b < graph.boundaries.size(); b++) {
         const Boundary& boundary = graph.boundaries[b];
-        line("boundary", {static_cast<Index>(b), boundary.left, boundary.right, boundary.start, boundary.end, boundary.axis, boundary.on_features, boundary.valid});
+        line("boundary", {static_cast<Index>(b), boundary.left, boundary.right, boundary.start, boundary.end, boundary.axis,
+                          boundary.on_features, boundary.valid});
         for (Index i = boundary.halfedges.first; i < boundary.halfedges.last; i++) line("", {graph.halfedges[i]});
         out += '\n';
     }
@@ -320,7 +323,8 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
     require(g.chart_boundaries.size() == 2 * g.boundaries.size(), "two charts per boundary", g.boundaries.size());
     Index borders = 0;
     for (Index h = 0; h < mesh.halfedges(); h++) {
-        require((labels[facet(h)] == labels[mesh.right(h)]) == (g.chart[facet(h)] == g.chart[mesh.right(h)]), "equal labels, equal charts", h);
+        require((labels[facet(h)] == labels[mesh.right(h)]) == (g.chart[facet(h)] == g.chart[mesh.right(h)]),
+                "equal labels, equal charts", h);
         require(g.is_border(h) == (labels[facet(h)] != labels[mesh.right(h)]), "borders", h);
         borders += g.is_border(h);
     }
@@ -334,7 +338,8 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
         Index smallest = *begin;
         bool runs = true;
         for (auto h = begin; h != end; ++h) {
-            require(g.boundary[*h] == static_cast<Index>(b) && g.boundary[mesh.opposite[*h]] == static_cast<Index>(b), "boundary of its half-edges", b);
+            require(g.boundary[*h] == static_cast<Index>(b) && g.boundary[mesh.opposite[*h]] == static_cast<Index>(b),
+                    "boundary of its half-edges", b);
             require(g.chart[facet(*h)] == boundary.left && g.chart[mesh.right(*h)] == boundary.right, "sides of a boundary", b);
             require(h + 1 == end || mesh.to(*h) == mesh.from(h[1]), "chain", b);
             if (mesh.edge(*h) < smallest) smallest = mesh.edge(*h), runs = *h == smallest;
@@ -343,8 +348,9 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
         require(runs, "direction of a boundary", b);
         require(smallest > last, "order of boundaries", b);
         last = smallest;
-        require(boundary.start == kNone ? *begin == smallest && mesh.to(end[-1]) == mesh.from(*begin)
-                                        : g.corners[boundary.start].vertex == mesh.from(*begin) && g.corners[boundary.end].vertex == mesh.to(end[-1]),
+        require(boundary.start == kNone
+                    ? *begin == smallest && mesh.to(end[-1]) == mesh.from(*begin)
+                    : g.corners[boundary.start].vertex == mesh.from(*begin) && g.corners[boundary.end].vertex == mesh.to(end[-1]),
                 "ends of a boundary", b);
     }
     last = kNone;
@@ -358,11 +364,12 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
             require(g.rings[r].corner == static_cast<Index>(c) && ring.size() >= 3, "ring of a corner", c);
             for (Index i = ring.first; i < ring.last; i++) {
                 const Index h = g.ring_halfedges[i], following = g.ring_halfedges[i + 1 == ring.last ? ring.first : i + 1];
-                require(mesh.from(h) == last && g.next_border_ccw(mesh, h) == following && h >= g.ring_halfedges[ring.first], "ring order", c);
+                require(mesh.from(h) == last && g.next_border_ccw(mesh, h) == following && h >= g.ring_halfedges[ring.first],
+                        "ring order", c);
             }
         }
     }
     require(invalid == g.invalid(), "number of invalid elements", invalid);
 }
 
-}  // namespace polylab
+}   // namespace polylab

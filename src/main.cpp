@@ -52,7 +52,8 @@ class Stopwatch {
 public:
     std::string seconds() const {
         char text[32];
-        std::snprintf(text, sizeof text, "%.3f s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
+        std::snprintf(text, sizeof text, "%.3f s",
+                      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
         return text;
     }
 
@@ -61,8 +62,9 @@ private:
 };
 
 const Option kOutput = {"-o", "FILE", "where the result goes; standard output without this, or with -"};
-const Option kFeatures = {"--features", "SOURCE", "file: the sharp ones among the file's feature edges (default)\n"
-                                                  "detect[=ANGLE]: every edge at which normals differ by ANGLE (0.5) rad or more"};
+const Option kFeatures = {"--features", "SOURCE",
+                          "file: the sharp ones among the file's feature edges (default)\n"
+                          "detect[=ANGLE]: every edge at which normals differ by ANGLE (0.5) rad or more"};
 const Option kQuiet = {"--quiet", "", "errors only"};
 const Option kVerbose = {"--verbose", "", "progress and summary, also where standard error is not a terminal"};
 
@@ -71,7 +73,8 @@ FeatureOptions feature_options(const Arguments& arguments) {
     const std::string source = arguments.get("--features", "file");
     const std::size_t equal = source.find('=');
     options.detect = source.substr(0, equal) == "detect";
-    if (!options.detect && source != "file") throw UsageError("--features: expected 'file' or 'detect[=ANGLE]', found '" + source + "'");
+    if (!options.detect && source != "file")
+        throw UsageError("--features: expected 'file' or 'detect[=ANGLE]', found '" + source + "'");
     if (options.detect && equal != std::string::npos) {
         Arguments angle;
         angle.options["--features detect"] = source.substr(equal + 1);
@@ -114,7 +117,8 @@ Labeling run_full(const TriMesh& mesh, Labeling start, Labeling locks, const Arg
     options.trace = [&](const Step& step) {
         if (arguments.has("--trace")) trace += trace_line(step);
         if (step.kept && !step.in_sequence)
-            console.detail(step.operation + ": " + std::to_string(step.after.invalid) + " invalid, " + std::to_string(step.after.turning_points) + " turning-points left");
+            console.detail(step.operation + ": " + std::to_string(step.after.invalid) + " invalid, " +
+                           std::to_string(step.after.turning_points) + " turning-points left");
     };
     Labeling labels = run_routines(mesh, std::move(start), options).labels;
     if (arguments.has("--trace")) write_file(arguments.get("--trace"), trace);
@@ -153,7 +157,8 @@ int run_label(const Arguments& arguments) {
     console.detail("initial labeling after " + watch.seconds());
     if (method == "full") labels = run_full(mesh, std::move(labels), std::move(locks), arguments, console);
     const Judged result = judge(mesh, labels);
-    if (arguments.has("--stats")) write_file(arguments.get("--stats"), statistics_json(result.statistics, explain(mesh, result.graph)));
+    if (arguments.has("--stats"))
+        write_file(arguments.get("--stats"), statistics_json(result.statistics, explain(mesh, result.graph)));
     write_file(output, labels_text(labels));
     console.say(summary(result.statistics));
     console.say((output == "-" ? "labels written" : "labels written to " + output) + " after " + watch.seconds());
@@ -213,7 +218,8 @@ int run_surface(const Arguments& arguments) {
     written.triangles = mesh.origin;
     if (arguments.has("--map")) write_file(arguments.get("--map"), surface_map_text(extracted.map));
     write_mesh(arguments.get("-o"), written);
-    console.say(path + ": " + std::to_string(extracted.map.tets) + " tetrahedra, " + std::to_string(mesh.facets()) + " triangles on the surface");
+    console.say(path + ": " + std::to_string(extracted.map.tets) + " tetrahedra, " + std::to_string(mesh.facets()) +
+                " triangles on the surface");
     return kDone;
 }
 
@@ -245,8 +251,9 @@ const std::vector<Command>& commands() {
           {"--method", "METHOD", "full (default), or one of the initial labelings: graphcut, naive"},
           {"--routine", "NAME", "of the full method: validity, monotonicity, or both (default)"},
           {"--stats", "JSON", "also write the statistics of the result"},
-          {"--trace", "FILE", "also write a line per operator application: operator, element, kept or refused,\n"
-                              "proposals, facets changed, then invalid elements, turning-points and loss before and after"},
+          {"--trace", "FILE",
+           "also write a line per operator application: operator, element, kept or refused,\n"
+           "proposals, facets changed, then invalid elements, turning-points and loss before and after"},
           {"--compactness", "N", "graph-cut: weight of separating neighbours (default 1)"},
           {"--fidelity", "N", "graph-cut: weight of leaving the normal (default 3)"},
           {"--sensitivity", "X", "graph-cut: tilt facets whose two best labels are closer than X (default 1e-9)"},
@@ -262,7 +269,8 @@ const std::vector<Command>& commands() {
          run_stats},
         {"explain",
          {"PART", "LABELS"},
-         "Says in words which charts, boundaries and corners are invalid, and where boundaries turn; worst first.\n\n" + kPartHelp,
+         "Says in words which charts, boundaries and corners are invalid, and where boundaries turn; worst first.\n\n" +
+             kPartHelp,
          {kOutput, kFeatures, kQuiet, kVerbose},
          run_explain},
         {"diff",
@@ -318,7 +326,8 @@ int run(const std::vector<std::string>& words) {
         return kDone;
     }
     if (first == "--version") {
-        write_file("-", std::string("polylab ") + kVersion + " (commit " + POLYLAB_COMMIT + ")\nthe same labels on Linux x86-64 and aarch64, built by g++ 12 or clang 14 and later\n");
+        write_file("-", std::string("polylab ") + kVersion + " (commit " + POLYLAB_COMMIT +
+                            ")\nthe same labels on Linux x86-64 and aarch64, built by g++ 12 or clang 14 and later\n");
         return kDone;
     }
     for (const Command& command : commands()) {
@@ -337,12 +346,13 @@ int run(const std::vector<std::string>& words) {
             return kNoResult;
         }
     }
-    std::fprintf(stderr, "polylab: %s (see polylab --help)\n", first.empty() ? "missing command" : ("unknown command '" + first + "'").c_str());
+    std::fprintf(stderr, "polylab: %s (see polylab --help)\n",
+                 first.empty() ? "missing command" : ("unknown command '" + first + "'").c_str());
     return kNoResult;
 }
 
-}  // namespace
-}  // namespace polylab
+}   // namespace
+}   // namespace polylab
 
 int main(int argc, char** argv) {
     try {

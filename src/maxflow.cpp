@@ -11,7 +11,7 @@ constexpr Index kRoot = -2;     // parent of a node that hangs on its terminal
 constexpr Index kOrphan = -3;   // parent of a node that has lost its own
 constexpr Index kFar = std::numeric_limits<Index>::max();
 
-}  // namespace
+}   // namespace
 
 MaxFlow::MaxFlow(Index nodes, const std::vector<Index>& ends) : first_(nodes + 1, 0) {
     const Index arcs = static_cast<Index>(ends.size());
@@ -220,4 +220,4 @@ void MaxFlow::make_orphan(Index node) {
     orphans_.push_back(node);
 }
 
-}  // namespace polylab
+}   // namespace polylab

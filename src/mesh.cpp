@@ -24,16 +24,19 @@ void check_elements(const MeshData& data) {
     for (Index v = 0; v < vertices; v++)
         for (int a = 0; a < 3; a++)
             if (!(std::abs(data.points[v][a]) <= kLargestCoordinate))
-                throw InputError(named("vertex", v) + ": expected coordinates up to 1e75, found " + std::to_string(data.points[v][a]));
+                throw InputError(named("vertex", v) + ": expected coordinates up to 1e75, found " +
+                                 std::to_string(data.points[v][a]));
     for (Index h = 0; h < static_cast<Index>(t.size()); h++) {
         if (t[h] < 0 || t[h] >= vertices)
-            throw InputError(named("facet", h / 3) + ": expected vertices 0.." + std::to_string(vertices - 1) + ", found " + std::to_string(t[h]));
-        if (t[h] == t[next(h)]) throw InputError(named("facet", h / 3) + ": expected three vertices, found " + named("vertex", t[h]) + " twice");
+            throw InputError(named("facet", h / 3) + ": expected vertices 0.." + std::to_string(vertices - 1) + ", found " +
+                             std::to_string(t[h]));
+        if (t[h] == t[next(h)])
+            throw InputError(named("facet", h / 3) + ": expected three vertices, found " + named("vertex", t[h]) + " twice");
     }
     for (std::size_t e = 0; e < data.edges.size(); e++)
         if (data.edges[e] < 0 || data.edges[e] >= vertices)
-            throw InputError(named("feature edge", static_cast<Index>(e / 2)) + ": expected vertices 0.." + std::to_string(vertices - 1) +
-                             ", found " + std::to_string(data.edges[e]));
+            throw InputError(named("feature edge", static_cast<Index>(e / 2)) + ": expected vertices 0.." +
+                             std::to_string(vertices - 1) + ", found " + std::to_string(data.edges[e]));
 }
 
 // One end of an edge, filed under its smaller vertex: a half-edge of a facet, or (from 3F on) a feature edge of the file.
@@ -43,8 +46,8 @@ struct EdgeUse {
 };
 
 struct EdgeTable {
-    std::vector<Index> first;   // vertex -> its first use in `uses`; one more at the end
-    std::vector<EdgeUse> uses;  // under each vertex sorted by (larger, id): equal edges side by side
+    std::vector<Index> first;    // vertex -> its first use in `uses`; one more at the end
+    std::vector<EdgeUse> uses;   // under each vertex sorted by (larger, id): equal edges side by side
 };
 
 // A counting sort by the smaller vertex, then small sorts: linear for any mesh with bounded vertex degrees.
@@ -66,9 +69,9 @@ EdgeTable sort_edges(const MeshData& data) {
         table.uses[place[smaller]++] = {larger, id};
     }
     for (std::size_t v = 0; v + 1 < table.first.size(); v++)
-        std::sort(table.uses.begin() + table.first[v], table.uses.begin() + table.first[v + 1], [](const EdgeUse& a, const EdgeUse& b) {
-            return a.larger < b.larger || (a.larger == b.larger && a.id < b.id);
-        });
+        std::sort(
+            table.uses.begin() + table.first[v], table.uses.begin() + table.first[v + 1],
+            [](const EdgeUse& a, const EdgeUse& b) { return a.larger < b.larger || (a.larger == b.larger && a.id < b.id); });
     return table;
 }
 
@@ -77,7 +80,8 @@ EdgeTable sort_edges(const MeshData& data) {
     for (Index i = 0; i < count; i++)
         for (Index j = i + 1; j < count; j++)
             if (data.triangles[prev(uses[i].id)] == data.triangles[prev(uses[j].id)])
-                throw InputError(named("facet", facet(uses[j].id)) + ": expected each facet once, found the vertices of " + named("facet", facet(uses[i].id)) + " again");
+                throw InputError(named("facet", facet(uses[j].id)) + ": expected each facet once, found the vertices of " +
+                                 named("facet", facet(uses[i].id)) + " again");
     std::string facets;
     for (Index i = 0; i < count && i < 4; i++) facets += (i ? ", " : "") + std::to_string(facet(uses[i].id));
     throw InputError("edge " + std::to_string(a) + "-" + std::to_string(b) + ": expected two facets (a closed surface), found " +
@@ -104,7 +108,8 @@ void connect(const MeshData& data, TriMesh& mesh) {
             }
             const Index h = uses[0].id, o = uses[1 < halfedges ? 1 : 0].id;
             // Two facets on the same three vertices are a closed (flat) component if they face opposite ways.
-            const bool twice = halfedges == 2 && data.triangles[prev(h)] == data.triangles[prev(o)] && data.triangles[h] == data.triangles[o];
+            const bool twice =
+                halfedges == 2 && data.triangles[prev(h)] == data.triangles[prev(o)] && data.triangles[h] == data.triangles[o];
             if (halfedges != 2 || twice) refuse_edge(data, uses, halfedges);
             mesh.opposite[h] = o;
             mesh.opposite[o] = h;
@@ -155,7 +160,7 @@ void keep_sharp_features(TriMesh& mesh, const FeatureOptions& options) {
     }
 }
 
-}  // namespace
+}   // namespace
 
 TriMesh build_mesh(MeshData data, const FeatureOptions& features) {
     check_elements(data);
@@ -192,7 +197,8 @@ void validate(const TriMesh& mesh) {
         if (!holds) throw std::logic_error(std::string("TriMesh: ") + what + " at " + std::to_string(i));
     };
     const Index n = mesh.halfedges();
-    require(n == 3 * mesh.facets() && mesh.opposite.size() == mesh.origin.size() && mesh.feature.size() == mesh.origin.size(), "array sizes", n);
+    require(n == 3 * mesh.facets() && mesh.opposite.size() == mesh.origin.size() && mesh.feature.size() == mesh.origin.size(),
+            "array sizes", n);
     Index kept = 0;
     for (Index h = 0; h < n; h++) {
         const Index o = mesh.opposite[h];
@@ -207,4 +213,4 @@ void validate(const TriMesh& mesh) {
     require(kept == 2 * mesh.features_kept, "count of feature edges", kept);
 }
 
-}  // namespace polylab
+}   // namespace polylab

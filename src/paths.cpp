@@ -20,7 +20,8 @@ bool inside(const TriMesh& mesh, const State& state, Index h, Index chart) {
 }
 
 bool is_turning_point(const State& state, Index vertex) {
-    return std::any_of(state.turning.points.begin(), state.turning.points.end(), [&](const TurningPoint& t) { return t.vertex == vertex; });
+    return std::any_of(state.turning.points.begin(), state.turning.points.end(),
+                       [&](const TurningPoint& t) { return t.vertex == vertex; });
 }
 
 // The half-edge around the origin of `around` that runs inside the chart and is best aligned with the direction.
@@ -56,7 +57,7 @@ Index leaving(const TriMesh& mesh, const State& state, Index vertex, Index chart
     return kNone;
 }
 
-}  // namespace
+}   // namespace
 
 Halfedges reversed(const TriMesh& mesh, const Halfedges& path) {
     Halfedges back(path.rbegin(), path.rend());
@@ -117,7 +118,8 @@ Halfedges lost_feature_path(const TriMesh& mesh, const State& state, Index h) {
     return path;
 }
 
-std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index chart, const std::vector<Index>& seeds, const Halfedges& walls) {
+std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index chart, const std::vector<Index>& seeds,
+                                  const Halfedges& walls) {
     std::vector<char> wall(mesh.halfedges(), 0), reached(mesh.facets(), 0);
     for (const Index h : walls) wall[h] = wall[mesh.opposite[h]] = 1;
     std::vector<Index> region;
@@ -147,7 +149,8 @@ std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vect
         ring.clear();
         for (Index f = 0; f < mesh.facets(); f++) {
             if (in[f] || (chart != kNone && state.graph.chart[f] != chart)) continue;
-            if (touched[mesh.origin[3 * f]] || touched[mesh.origin[3 * f + 1]] || touched[mesh.origin[3 * f + 2]]) ring.push_back(f);
+            if (touched[mesh.origin[3 * f]] || touched[mesh.origin[3 * f + 1]] || touched[mesh.origin[3 * f + 2]])
+                ring.push_back(f);
         }
         for (const Index f : ring) {
             in[f] = 1;
@@ -174,7 +177,8 @@ std::vector<Halfedges> contours(const TriMesh& mesh, const State& state, Index c
         const Boundary& boundary = graph.boundaries[graph.chart_boundaries[i]];
         if (walked[graph.chart_boundaries[i]]) continue;
         const bool runs = boundary.left == chart;
-        const Index first = runs ? graph.halfedges[boundary.halfedges.first] : mesh.opposite[graph.halfedges[boundary.halfedges.last - 1]];
+        const Index first =
+            runs ? graph.halfedges[boundary.halfedges.first] : mesh.opposite[graph.halfedges[boundary.halfedges.last - 1]];
         Halfedges contour;
         Index h = first;
         do {
@@ -208,4 +212,4 @@ Patch relabel(const std::vector<Index>& facets, Label label) {
     return patch;
 }
 
-}  // namespace polylab
+}   // namespace polylab

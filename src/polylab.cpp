@@ -14,4 +14,4 @@ TriMesh read_surface(const std::string& path, const FeatureOptions& features) {
 
 Labeling label_polycube(const TriMesh& mesh) { return run_routines(mesh, graphcut_labeling(mesh)).labels; }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -48,7 +48,8 @@ std::vector<Index> strip_beside(const TriMesh& mesh, const State& state, const H
     return strip;
 }
 
-void propose_strips(Proposals& proposals, const TriMesh& mesh, const State& state, const Halfedges& path, std::initializer_list<Label> unwanted) {
+void propose_strips(Proposals& proposals, const TriMesh& mesh, const State& state, const Halfedges& path,
+                    std::initializer_list<Label> unwanted) {
     for (const int width : {1, 3}) {
         for (const Halfedges& side : {path, reversed(mesh, path)}) {
             const std::vector<Index> strip = strip_beside(mesh, state, side, width);
@@ -64,10 +65,10 @@ void propose_strips(Proposals& proposals, const TriMesh& mesh, const State& stat
 // One way to pull: chart S at one side of the boundary, the contour of S from the turning-point to the corner, and the run
 // of S's contour behind the corner.
 struct Pull {
-    Index chart;          // S
-    Halfedges to_corner;  // S at one side, leaving the turning-point
-    Halfedges moved;      // the boundary behind the corner, leaving it
-    Label label;          // beyond the moved boundary
+    Index chart;           // S
+    Halfedges to_corner;   // S at one side, leaving the turning-point
+    Halfedges moved;       // the boundary behind the corner, leaving it
+    Label label;           // beyond the moved boundary
 };
 
 std::vector<Pull> pulls(const TriMesh& mesh, const State& state, const TurningPoint& t) {
@@ -89,7 +90,10 @@ std::vector<Pull> pulls(const TriMesh& mesh, const State& state, const TurningPo
                 const auto at = std::find_if(run.begin(), run.end(), [&](Index h) { return mesh.from(h) == t.vertex; });
                 if (at == run.end() || at == run.begin()) continue;
                 const Halfedges &after = runs[(r + 1) % runs.size()], &before = runs[(r + runs.size() - 1) % runs.size()];
-                Pull forward{chart, {at, run.end()}, after, state.graph.charts[state.graph.neighbour(state.graph.boundary[after[0]], chart)].label};
+                Pull forward{chart,
+                             {at, run.end()},
+                             after,
+                             state.graph.charts[state.graph.neighbour(state.graph.boundary[after[0]], chart)].label};
                 Pull backward{chart, reversed(mesh, {run.begin(), at}), reversed(mesh, before),
                               state.graph.charts[state.graph.neighbour(state.graph.boundary[before[0]], chart)].label};
                 const bool forward_first = nearest != kNone && state.graph.corners[nearest].vertex == mesh.to(run.back());
@@ -104,7 +108,8 @@ std::vector<Pull> pulls(const TriMesh& mesh, const State& state, const TurningPo
 void propose_pull(Proposals& proposals, const TriMesh& mesh, const State& state, const Pull& pull, const Halfedges& path) {
     if (path.empty()) return;
     std::vector<Index> seeds;
-    for (const Index h : pull.to_corner) seeds.push_back(state.graph.chart[mesh.left(h)] == pull.chart ? mesh.left(h) : mesh.right(h));
+    for (const Index h : pull.to_corner)
+        seeds.push_back(state.graph.chart[mesh.left(h)] == pull.chart ? mesh.left(h) : mesh.right(h));
     const std::vector<Index> region = region_between(mesh, state, pull.chart, seeds, path);
     if (region.empty()) return;
     proposals.push_back(relabel(region, pull.label));
@@ -123,7 +128,9 @@ Halfedges straight_path(const TriMesh& mesh, const State& state, const Boundary&
     const Index target = mesh.to(run.back());
     std::vector<char> visited(mesh.vertices(), 0);
     Halfedges path;
-    const auto in_charts = [&](Index f) { return state.graph.chart[f] == boundary.left || state.graph.chart[f] == boundary.right; };
+    const auto in_charts = [&](Index f) {
+        return state.graph.chart[f] == boundary.left || state.graph.chart[f] == boundary.right;
+    };
     const auto usable = [&](Index tip_edge) {   // a vertex on the way must be surrounded by the two charts
         if (mesh.to(tip_edge) == target) return true;
         Index h = mesh.opposite[tip_edge];
@@ -143,7 +150,8 @@ Halfedges straight_path(const TriMesh& mesh, const State& state, const Boundary&
         do {
             h = mesh.cw(h);
             const double length = norm(mesh.vector(h)), value = length > 0 ? dot(mesh.vector(h), aim) / length : 0;
-            if (value > best_value && !visited[mesh.to(h)] && in_charts(mesh.left(h)) && in_charts(mesh.right(h)) && usable(h)) {   // tie: first clockwise
+            if (value > best_value && !visited[mesh.to(h)] && in_charts(mesh.left(h)) && in_charts(mesh.right(h)) &&
+                usable(h)) {   // tie: first clockwise
                 best = h;
                 best_value = value;
             }
@@ -175,7 +183,7 @@ Patch redrawn(const TriMesh& mesh, const State& state, const Boundary& boundary,
     return patch;
 }
 
-}  // namespace
+}   // namespace
 
 bool beside_feature(const TriMesh& mesh, const State& state, const TurningPoint& t) {
     return mesh.feature[edge_number(state.graph, t, 0)] || mesh.feature[edge_number(state.graph, t, -1)];
@@ -198,7 +206,8 @@ Proposals pull_closest_corner(const TriMesh& mesh, const State& state, const Tur
     for (const Pull& pull : pulls(mesh, state, t)) {
         const Vec3 along_moved = mesh.points[mesh.to(pull.moved.back())] - mesh.points[mesh.from(pull.moved[0])];
         for (const Index lost : lost_features_at(mesh, state, outgoing(state, t)))
-            if (state.graph.chart[facet(lost)] == pull.chart) propose_pull(proposals, mesh, state, pull, lost_feature_path(mesh, state, lost));
+            if (state.graph.chart[facet(lost)] == pull.chart)
+                propose_pull(proposals, mesh, state, pull, lost_feature_path(mesh, state, lost));
         propose_pull(proposals, mesh, state, pull, greedy_path(mesh, state, t.vertex, pull.chart, along_moved));
     }
     return proposals;
@@ -225,7 +234,8 @@ Proposals straighten_boundary(const TriMesh& mesh, const State& state, Index b) 
     Patch all;
     for (Index i = boundary.halfedges.first; i < boundary.halfedges.last;) {
         Halfedges run;
-        for (; i < boundary.halfedges.last && !mesh.feature[state.graph.halfedges[i]]; i++) run.push_back(state.graph.halfedges[i]);
+        for (; i < boundary.halfedges.last && !mesh.feature[state.graph.halfedges[i]]; i++)
+            run.push_back(state.graph.halfedges[i]);
         if (run.empty()) i++;
         if (static_cast<Index>(run.size()) <= kShortestRun || mesh.from(run[0]) == mesh.to(run.back())) continue;
         const Halfedges path = straight_path(mesh, state, boundary, run);
@@ -253,7 +263,8 @@ Proposals smooth_boundaries(const TriMesh& mesh, const State& state) {
         for (Index f = 0; f < mesh.facets(); f++) {
             const Label l = majority(f);
             bool keeps_features = true;
-            for (Index h = 3 * f; h < 3 * f + 3; h++) keeps_features = keeps_features && !(mesh.feature[h] && labels[mesh.right(h)] == l);
+            for (Index h = 3 * f; h < 3 * f + 3; h++)
+                keeps_features = keeps_features && !(mesh.feature[h] && labels[mesh.right(h)] == l);
             if (l == labels[f] || !keeps_features) continue;
             labels[f] = l;
             changed = true;
@@ -278,4 +289,4 @@ Proposals directional_path(const TriMesh& mesh, const State& state, const Turnin
     return proposals;
 }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -48,10 +48,15 @@ struct Pass {
 };
 constexpr Pass kPasses[] = {{0.001, false}, {0.004, false}, {0.016, false}, {0.004, true}, {0.016, true}, {1, true}};
 
+// A bound in units of work, not of time, so that results don't depend on the machine: proposals that a run may try. CAD
+// parts need up to 2000; labelings that are mostly noise would go on for long.
+constexpr Index kMostProposals = 5000;
+
 class Routines {
 public:
     Routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options)
-        : mesh_(mesh), options_(options), judge_(mesh, options.allow_opposite, options.locks), state_(judge_.state(std::move(start))) {}
+        : mesh_(mesh), options_(options), judge_(mesh, options.allow_opposite, options.locks),
+          state_(judge_.state(std::move(start))) {}
 
     State run() {
         for (const Pass& pass : kPasses)
@@ -92,17 +97,21 @@ private:
 
     void set_limit(double mean_fidelity) { loss_limit_ = static_cast<std::int64_t>(mean_fidelity * kLossUnit * mesh_.facets()); }
 
-    bool improves(const State& s, const State& before) const { return s.score < before.score && s.score.loss - before.score.loss <= loss_limit_; }
+    bool improves(const State& s, const State& before) const {
+        return s.score < before.score && s.score.loss - before.score.loss <= loss_limit_;
+    }
 
     // Tries all proposals. Of those that improve the score it keeps the one with the least loss, so that a small repair is
     // preferred to a sweeping one that repairs more.   tie: the first
     bool once(const char* operation, Index element, const Proposals& proposals) {
+        proposals_tried_ += static_cast<Index>(proposals.size());
         if (proposals.empty()) return false;
         Step step{operation, element, in_sequence_, false, static_cast<Index>(proposals.size()), 0, state_.score, {}};
         for (const Patch& patch : proposals) {
             judge_.apply(state_, patch, trial_);
             const bool better = improves(trial_, state_), first = step.facets == 0;
-            const bool best = better ? !step.kept || trial_.score.loss < best_.score.loss : !step.kept && trial_.score < best_.score;
+            const bool best =
+                better ? !step.kept || trial_.score.loss < best_.score.loss : !step.kept && trial_.score < best_.score;
             if (!first && !best) continue;
             std::swap(trial_, best_);
             step.kept = better;
@@ -122,7 +131,9 @@ private:
                                                            : s.graph.corners.size());
     }
     static bool invalid(const State& s, Kind kind, Index i) {
-        return kind == Kind::chart ? !s.graph.charts[i].valid : kind == Kind::boundary ? !s.graph.boundaries[i].valid : !s.graph.corners[i].valid;
+        return kind == Kind::chart      ? !s.graph.charts[i].valid
+               : kind == Kind::boundary ? !s.graph.boundaries[i].valid
+                                        : !s.graph.corners[i].valid;
     }
     // An element by something that outlives a relabeling elsewhere.
     static Index name(const State& s, Kind kind, Index i) {
@@ -156,17 +167,22 @@ private:
         if (kind == Kind::boundary) charts = {graph.boundaries[i].left, graph.boundaries[i].right};
         if (kind == Kind::chart) {
             charts = {i};
-            for (Index k = graph.charts[i].boundaries.first; k < graph.charts[i].boundaries.last; k++) charts.push_back(graph.neighbour(graph.chart_boundaries[k], i));
+            for (Index k = graph.charts[i].boundaries.first; k < graph.charts[i].boundaries.last; k++)
+                charts.push_back(graph.neighbour(graph.chart_boundaries[k], i));
         }
         if (kind == Kind::corner)
             for (Index r = graph.corners[i].rings.first; r < graph.corners[i].rings.last; r++)
-                for (Index k = graph.rings[r].halfedges.first; k < graph.rings[r].halfedges.last; k++) charts.push_back(graph.chart[facet(graph.ring_halfedges[k])]);
+                for (Index k = graph.rings[r].halfedges.first; k < graph.rings[r].halfedges.last; k++)
+                    charts.push_back(graph.chart[facet(graph.ring_halfedges[k])]);
         return charts;
     }
 
-    // Whether the operator has not been refused at this place in the same surroundings and under this limit; notes it.
+    // Whether the operator has not been tried at this place in the same surroundings and under this limit; notes it.
+    // No place is left once the run has tried its share.
     bool untried(const char* operation, Index place, const std::vector<Index>& charts) {
-        return tried_.insert({std::string(operation) + (in_sequence_ ? "/" : ""), place, surroundings(charts), loss_limit_}).second;
+        if (proposals_tried_ >= kMostProposals) return false;
+        return tried_.insert({std::string(operation) + (in_sequence_ ? "/" : ""), place, surroundings(charts), loss_limit_})
+            .second;
     }
 
     // The operator on one invalid element after the other, until a round keeps nothing. In a sequence only on elements
@@ -177,7 +193,8 @@ private:
             for (Index i = 0; i < count(state_, o.kind); i++) {
                 if (!invalid(state_, o.kind, i)) continue;
                 const Index place = name(state_, o.kind, i);
-                if (invalid_before_[static_cast<int>(o.kind)].count(place) > 0 || !untried(o.name, place, charts_at(o.kind, i))) continue;
+                if (invalid_before_[static_cast<int>(o.kind)].count(place) > 0 || !untried(o.name, place, charts_at(o.kind, i)))
+                    continue;
                 kept = once(o.name, i, o.propose(mesh_, state_, i)) || kept;
             }
         }
@@ -189,7 +206,8 @@ private:
             kept = false;
             for (std::size_t i = 0; i < state_.turning.points.size(); i++) {
                 const TurningPoint t = state_.turning.points[i];
-                if (untried(o.name, t.vertex, charts_at(Kind::boundary, t.boundary))) kept = once(o.name, t.vertex, o.propose(mesh_, state_, t)) || kept;
+                if (untried(o.name, t.vertex, charts_at(Kind::boundary, t.boundary)))
+                    kept = once(o.name, t.vertex, o.propose(mesh_, state_, t)) || kept;
             }
         }
     }
@@ -219,9 +237,11 @@ private:
     // broke, and the best of these ends is kept if it improves the score.
     void for_each_in_sequence(const ValidityOperator& o) {
         for (Index i = 0; i < count(state_, o.kind); i++) {
-            if (!invalid(state_, o.kind, i)) continue;
+            if (!invalid(state_, o.kind, i) || proposals_tried_ >= kMostProposals) continue;
             const Step step = sequence(o.propose(mesh_, state_, i));
-            if (options_.trace && step.proposals > 0) options_.trace({std::string("sequence-of-") + o.name, i, false, step.kept, step.proposals, step.facets, step.before, step.after});
+            if (options_.trace && step.proposals > 0)
+                options_.trace({std::string("sequence-of-") + o.name, i, false, step.kept, step.proposals, step.facets,
+                                step.before, step.after});
         }
     }
 
@@ -234,6 +254,7 @@ private:
                 if (invalid(state_, kind, i)) invalid_before_[static_cast<int>(kind)].insert(name(state_, kind, i));
         in_sequence_ = true;
         for (const Patch& patch : proposals) {
+            proposals_tried_++;
             judge_.apply(before, patch, state_);
             for (const ValidityOperator& o : kValidityOperators) for_each_invalid(o);
             if (!improves(state_, before) || (step.kept && state_.score.loss >= best.score.loss)) continue;
@@ -252,6 +273,7 @@ private:
     const RoutineOptions& options_;
     Judge judge_;
     State state_;
+    Index proposals_tried_ = 0;
     std::int64_t loss_limit_ = 0;
     bool in_sequence_ = false;
     std::set<Index> invalid_before_[3];   // by kind, in a sequence: names of what was invalid at its start
@@ -259,9 +281,11 @@ private:
     State trial_, best_;   // memory of once()
 };
 
-}  // namespace
+}   // namespace
 
-State run_routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options) { return Routines(mesh, std::move(start), options).run(); }
+State run_routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options) {
+    return Routines(mesh, std::move(start), options).run();
+}
 
 std::string trace_line(const Step& step) {
     std::string line = (step.in_sequence ? "| " : "") + step.operation;
@@ -281,4 +305,4 @@ std::string trace_line(const Step& step) {
     return line + "\n";
 }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -37,7 +37,8 @@ std::string costs_stage(const TriMesh& mesh) {
     std::string out;
     const PottsEnergy energy = labeling_energy(mesh);
     for (const auto& d : energy.data) line(out, "data", {d[0], d[1], d[2], d[3], d[4], d[5]});
-    for (std::size_t e = 0; e < energy.weight.size(); e++) line(out, "pair", {energy.ends[2 * e], energy.ends[2 * e + 1], energy.weight[e]});
+    for (std::size_t e = 0; e < energy.weight.size(); e++)
+        line(out, "pair", {energy.ends[2 * e], energy.ends[2 * e + 1], energy.weight[e]});
     return out;
 }
 
@@ -54,7 +55,8 @@ std::string turning_points_stage(const TriMesh& mesh, const LabelingGraph& graph
     const TurningPoints turning = find_turning_points(mesh, graph);
     for (const TurningPoint& t : turning.points) {
         line(out, "turning-point", {t.boundary, t.position, t.vertex});
-        line(out, leans_left(mesh, graph, t) ? "leans left, closest corner" : "leans right, closest corner", {closest_corner(mesh, graph, t)});
+        line(out, leans_left(mesh, graph, t) ? "leans left, closest corner" : "leans right, closest corner",
+             {closest_corner(mesh, graph, t)});
     }
     const TurningPoints published = published_turning_points(mesh, graph);
     line(out, "own vertices", {turning.vertices});
@@ -73,15 +75,17 @@ std::string statistics_stage(const TriMesh& mesh, const Labeling& labels) {
     line(out, "corners", {s.corners, s.invalid_corners});
     line(out, "turning-points", {s.turning_points, s.own_turning_points});
     line(out, "feature-edges preserved, lost, ignored", {s.features_preserved, s.features_lost, s.features_ignored});
-    line(out, "fidelity min, avg, max, sd in millionths", {micro(s.fidelity_min), micro(s.fidelity_avg), micro(s.fidelity_max), micro(s.fidelity_sd)});
+    line(out, "fidelity min, avg, max, sd in millionths",
+         {micro(s.fidelity_min), micro(s.fidelity_avg), micro(s.fidelity_max), micro(s.fidelity_sd)});
     line(out, "class", {static_cast<int>(s.result_class())});
     return out;
 }
 
-}  // namespace
+}   // namespace
 
 const std::vector<std::string>& stage_names() {
-    static const std::vector<std::string> names = {"mesh", "costs", "naive", "tilted", "graphcut", "graph", "turning-points", "trace", "labels", "statistics"};
+    static const std::vector<std::string> names = {"mesh",  "costs",          "naive", "tilted", "graphcut",
+                                                   "graph", "turning-points", "trace", "labels", "statistics"};
     return names;
 }
 
@@ -101,7 +105,9 @@ std::string stage_text(const TriMesh& mesh, const std::string& stage) {
     if (stage == "trace") return trace;
     if (stage == "labels") return labels_text(labels);
     if (stage == "statistics") return statistics_stage(mesh, labels);
-    throw InputError("stage: expected one of mesh costs naive tilted graphcut graph turning-points trace labels statistics, found '" + stage + "'");
+    throw InputError(
+        "stage: expected one of mesh costs naive tilted graphcut graph turning-points trace labels statistics, found '" + stage +
+        "'");
 }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -2,13 +2,17 @@
 
 namespace polylab {
 
-Judge::Judge(const TriMesh& mesh, bool allow_opposite, Labeling locks) : mesh_(mesh), allow_opposite_(allow_opposite), locks_(std::move(locks)) {
+Judge::Judge(const TriMesh& mesh, bool allow_opposite, Labeling locks)
+    : mesh_(mesh), allow_opposite_(allow_opposite), locks_(std::move(locks)) {
     loss_.resize(mesh.facets());
     for (Index f = 0; f < mesh.facets(); f++)
-        for (Label l = 0; l < kLabels; l++) loss_[f][l] = static_cast<std::int32_t>(kLossUnit * (1 - along(mesh.normal[f], l)) / 2 + 0.5);
+        for (Label l = 0; l < kLabels; l++)
+            loss_[f][l] = static_cast<std::int32_t>(kLossUnit * (1 - along(mesh.normal[f], l)) / 2 + 0.5);
     for (Index h = 0; h < mesh.halfedges(); h++)
         if (mesh.feature[h] && h < mesh.opposite[h]) features_.push_back(h);
-    if (!features_.empty()) loss_per_feature_ = static_cast<std::int64_t>(kLostWeight * kLossUnit * mesh.facets() / static_cast<double>(features_.size()));
+    if (!features_.empty())
+        loss_per_feature_ =
+            static_cast<std::int64_t>(kLostWeight * kLossUnit * mesh.facets() / static_cast<double>(features_.size()));
 }
 
 State Judge::state(Labeling labels) const {
@@ -36,4 +40,4 @@ void Judge::derive(State& state) const {
         if (!state.graph.is_border(h)) state.score.loss += loss_per_feature_;
 }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -29,7 +29,7 @@ void measure_fidelity(const TriMesh& mesh, const Labeling& labels, Statistics& s
     s.fidelity_sd = std::sqrt(squares / mesh.facets());
 }
 
-}  // namespace
+}   // namespace
 
 double fidelity(const Vec3& normal, Label l) { return (along(normal, l) + 1) / 2; }
 
@@ -55,13 +55,15 @@ Statistics statistics(const TriMesh& mesh, const Labeling& labels, const Labelin
 }
 
 std::string summary(const Statistics& s) {
-    const char* name = s.result_class() == Class::invalid ? "not valid" : s.result_class() == Class::valid_monotone ? "valid, all monotone" : "valid, with turning-points";
+    const char* name = s.result_class() == Class::invalid          ? "not valid"
+                       : s.result_class() == Class::valid_monotone ? "valid, all monotone"
+                                                                   : "valid, with turning-points";
     char text[512];
     std::snprintf(text, sizeof text,
                   "%s: %d charts (%d invalid), %d boundaries (%d invalid), %d corners (%d invalid), %d turning-points\n"
                   "fidelity %.4f on average, %.4f at least; feature edges: %d preserved, %d lost, %d ignored",
-                  name, s.charts, s.invalid_charts, s.boundaries, s.invalid_boundaries, s.corners, s.invalid_corners, s.turning_points, s.fidelity_avg,
-                  s.fidelity_min, s.features_preserved, s.features_lost, s.features_ignored);
+                  name, s.charts, s.invalid_charts, s.boundaries, s.invalid_boundaries, s.corners, s.invalid_corners,
+                  s.turning_points, s.fidelity_avg, s.fidelity_min, s.features_preserved, s.features_lost, s.features_ignored);
     return text;
 }
 
@@ -93,7 +95,9 @@ void write_json(JsonWriter& json, const Statistics& s) {
     json.close_object();
     json.value("is_allowing_boundaries_between_opposite_labels", s.allow_opposite);
     json.open_object("polylab");
-    json.value("class", s.result_class() == Class::invalid ? "invalid" : s.result_class() == Class::valid_monotone ? "valid_monotone" : "valid_turning_points");
+    json.value("class", s.result_class() == Class::invalid          ? "invalid"
+                        : s.result_class() == Class::valid_monotone ? "valid_monotone"
+                                                                    : "valid_turning_points");
     json.value("facets", s.facets);
     json.value("fidelity_area_avg", s.fidelity_area_avg);
     json.value("turning_points", s.own_turning_points);
@@ -107,4 +111,4 @@ void write_json_end(JsonWriter& json, const Statistics& s) {
     json.close_object();
 }
 
-}  // namespace polylab
+}   // namespace polylab

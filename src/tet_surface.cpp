@@ -26,13 +26,16 @@ void check_tets(const MeshData& data) {
     for (std::size_t i = 0; i < data.tets.size(); i++) {
         const Index v = data.tets[i];
         const std::string tet = "tetrahedron " + std::to_string(i / 4);
-        if (v < 0 || v >= vertices) throw InputError(tet + ": expected vertices 0.." + std::to_string(vertices - 1) + ", found " + std::to_string(v));
+        if (v < 0 || v >= vertices)
+            throw InputError(tet + ": expected vertices 0.." + std::to_string(vertices - 1) + ", found " + std::to_string(v));
         for (std::size_t j = i - i % 4; j < i; j++)
             if (data.tets[j] == v)
                 throw InputError(tet + ": expected four vertices, found vertex " + std::to_string(v) + " twice");
     }
     for (const Index v : data.edges)
-        if (v < 0 || v >= vertices) throw InputError("feature edges: expected vertices 0.." + std::to_string(vertices - 1) + ", found " + std::to_string(v));
+        if (v < 0 || v >= vertices)
+            throw InputError("feature edges: expected vertices 0.." + std::to_string(vertices - 1) + ", found " +
+                             std::to_string(v));
 }
 
 // Facet ids of the facets that only one tetrahedron has, in increasing order. A counting sort by the smallest vertex,
@@ -65,8 +68,9 @@ std::vector<Index> boundary_facets(const MeshData& data) {
             for (last = f; last != end && last->same_vertices(*f);) ++last;
             on_boundary[f->id] = last - f == 1;
             if (last - f > 2)
-                throw InputError("tetrahedra " + std::to_string(f[0].id / 4) + ", " + std::to_string(f[1].id / 4) + " and " + std::to_string(f[2].id / 4) +
-                                 ": expected two tetrahedra at a facet, found " + std::to_string(last - f));
+                throw InputError("tetrahedra " + std::to_string(f[0].id / 4) + ", " + std::to_string(f[1].id / 4) + " and " +
+                                 std::to_string(f[2].id / 4) + ": expected two tetrahedra at a facet, found " +
+                                 std::to_string(last - f));
         }
     }
     std::vector<Index> ids;
@@ -75,7 +79,7 @@ std::vector<Index> boundary_facets(const MeshData& data) {
     return ids;
 }
 
-}  // namespace
+}   // namespace
 
 TetSurface extract_surface(const MeshData& data) {
     check_tets(data);
@@ -104,7 +108,8 @@ TetSurface extract_surface(const MeshData& data) {
 
 Labeling volume_labels(const Labeling& surface_labels, const SurfaceMap& map) {
     if (surface_labels.size() != map.tet_facet.size())
-        throw InputError("expected " + std::to_string(map.tet_facet.size()) + " labels, one per triangle of the surface map, found " + std::to_string(surface_labels.size()));
+        throw InputError("expected " + std::to_string(map.tet_facet.size()) +
+                         " labels, one per triangle of the surface map, found " + std::to_string(surface_labels.size()));
     Labeling volume(4 * static_cast<std::size_t>(map.tets), kNoLabel);
     for (std::size_t i = 0; i < surface_labels.size(); i++) volume[map.tet_facet[i]] = surface_labels[i];
     return volume;
@@ -151,4 +156,4 @@ SurfaceMap read_surface_map_text(std::string_view text, const std::string& name)
 
 SurfaceMap read_surface_map(const std::string& path) { return read_surface_map_text(read_file(path), path); }
 
-}  // namespace polylab
+}   // namespace polylab

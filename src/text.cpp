@@ -72,7 +72,7 @@ bool below_one(std::string_view digits) {
     return power + (digits.substr(e).find('-') == 1 ? -exponent : exponent) < 0;
 }
 
-}  // namespace
+}   // namespace
 
 std::string read_file(const std::string& path) {
     std::error_code error;
@@ -203,7 +203,10 @@ void Scanner::fail(const std::string& expected, std::string_view found) const {
     std::string shown;
     for (const char c : found.substr(0, 40)) shown += c >= 32 && c < 127 ? c : '?';
     if (found.size() > 40) shown += "…";
-    throw InputError(file_, line_, "expected " + expected + ", found " + (found.empty() ? "the end of the " + std::string(at_ >= text_.size() ? "file" : "line") : "'" + shown + "'"));
+    throw InputError(
+        file_, line_,
+        "expected " + expected + ", found " +
+            (found.empty() ? "the end of the " + std::string(at_ >= text_.size() ? "file" : "line") : "'" + shown + "'"));
 }
 
-}  // namespace polylab
+}   // namespace polylab

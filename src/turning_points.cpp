@@ -27,7 +27,7 @@ struct Price {
 
 struct Directions {
     Price price;
-    std::vector<int> along;    // edge -> 1 along +axis
+    std::vector<int> along;   // edge -> 1 along +axis
 };
 
 constexpr Price kImpossible = {std::numeric_limits<std::int64_t>::max() / 2, 0, 0};
@@ -90,10 +90,11 @@ bool can_turn(const Boundary& boundary) { return boundary.halfedges.size() > 1 &
 class PublishedOrder {
 public:
     PublishedOrder(const TriMesh& mesh, const LabelingGraph& graph)
-        : mesh_(mesh), graph_(graph), ring_of_(mesh.halfedges(), kNone), recorded_(graph.rings.size(), 0), met_(graph.corners.size(), 0),
-          reversed_(graph.boundaries.size(), kUnknown) {
+        : mesh_(mesh), graph_(graph), ring_of_(mesh.halfedges(), kNone), recorded_(graph.rings.size(), 0),
+          met_(graph.corners.size(), 0), reversed_(graph.boundaries.size(), kUnknown) {
         for (Index r = 0; r < static_cast<Index>(graph.rings.size()); r++)
-            for (Index i = graph.rings[r].halfedges.first; i < graph.rings[r].halfedges.last; i++) ring_of_[graph.ring_halfedges[i]] = r;
+            for (Index i = graph.rings[r].halfedges.first; i < graph.rings[r].halfedges.last; i++)
+                ring_of_[graph.ring_halfedges[i]] = r;
     }
 
     // boundary -> 1 where it is traversed against its direction here
@@ -159,14 +160,14 @@ private:
 
     const TriMesh& mesh_;
     const LabelingGraph& graph_;
-    std::vector<Index> ring_of_;    // half-edge -> ring it belongs to, or kNone
-    std::vector<char> recorded_;    // ring -> 1 once its corner holds it
-    std::vector<char> met_;         // corner -> 1 once it exists
-    std::vector<char> reversed_;    // boundary -> result, or kUnknown
+    std::vector<Index> ring_of_;   // half-edge -> ring it belongs to, or kNone
+    std::vector<char> recorded_;   // ring -> 1 once its corner holds it
+    std::vector<char> met_;        // corner -> 1 once it exists
+    std::vector<char> reversed_;   // boundary -> result, or kUnknown
     std::vector<Index> stack_;
 };
 
-}  // namespace
+}   // namespace
 
 Chain make_chain(const TriMesh& mesh, const std::vector<Index>& halfedges, int axis) {
     Chain chain;
@@ -202,7 +203,8 @@ std::vector<Index> published_chain_turns(const Chain& chain, bool closed) {
     for (Index i = 1; i < n; i++) {
         const std::array<std::int64_t, 2> before = best;
         for (const int d : {0, 1}) {
-            const std::int64_t through0 = before[0] + (d == 0 ? 0 : chain.change[i - 1]), through1 = before[1] + (d == 1 ? 0 : chain.change[i - 1]);
+            const std::int64_t through0 = before[0] + (d == 0 ? 0 : chain.change[i - 1]),
+                               through1 = before[1] + (d == 1 ? 0 : chain.change[i - 1]);
             from[i][d] = through1 <= through0;   // tie: +axis
             best[d] = std::min(through0, through1) + chain.cost[d][i];
         }
@@ -270,4 +272,4 @@ Index closest_corner(const TriMesh& mesh, const LabelingGraph& graph, const Turn
     return before < after ? boundary.start : boundary.end;
 }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -10,10 +10,10 @@ namespace polylab {
 
 namespace {
 
-constexpr int kWidths[] = {1, 2, 5};              // rings of facets of a chart inserted along a boundary
-constexpr int kCornerWidths[] = {1, 2, 4};      // and around a corner
-constexpr std::size_t kShortestSegment = 3;     // edges of a contour that go over to an inserted axis, unless fewer balance
-constexpr Index kForbidden = 100000;            // cost of a label that a facet must not take
+constexpr int kWidths[] = {1, 2, 5};          // rings of facets of a chart inserted along a boundary
+constexpr int kCornerWidths[] = {1, 2, 4};    // and around a corner
+constexpr std::size_t kShortestSegment = 3;   // edges of a contour that go over to an inserted axis, unless fewer balance
+constexpr Index kForbidden = 100000;          // cost of a label that a facet must not take
 
 const Chart& chart_at(const State& state, Index f) { return state.graph.charts[state.graph.chart[f]]; }
 
@@ -51,7 +51,8 @@ std::vector<Spot> find_spots(const TriMesh& mesh, const State& state, const Half
             spots.push_back({t.vertex, reversed(mesh, {run.begin(), at}), {at, run.end()}});
         }
         const Index corner = mesh.to(run.back());
-        if (runs.size() > 1 && state.graph.boundaries[state.graph.boundary[following[0]]].axis == axis && state.graph.corner[corner] != kNone)
+        if (runs.size() > 1 && state.graph.boundaries[state.graph.boundary[following[0]]].axis == axis &&
+            state.graph.corner[corner] != kNone)
             spots.push_back({corner, reversed(mesh, run), following});
     }
     return spots;
@@ -91,7 +92,8 @@ std::int32_t worst_start(const TriMesh& mesh, const std::vector<Index>& leaving,
 }
 
 // The new chart between the first `edges` edges of a polyedge and the paths that leave its two ends, in the chart across.
-Patch chart_beside(const TriMesh& mesh, const State& state, Index chart, const Spot& spot, const Halfedges& polyedge, std::size_t edges) {
+Patch chart_beside(const TriMesh& mesh, const State& state, Index chart, const Spot& spot, const Halfedges& polyedge,
+                   std::size_t edges) {
     const Halfedges segment(polyedge.begin(), polyedge.begin() + static_cast<std::ptrdiff_t>(edges));
     const Index support = state.graph.neighbour(state.graph.boundary[segment[0]], chart);
     const Label label = state.graph.charts[chart].label, support_label = state.graph.charts[support].label;
@@ -122,7 +124,8 @@ Patch chart_beside(const TriMesh& mesh, const State& state, Index chart, const S
 
 std::vector<Label> labels_by_fit(const Vec3& normal) {
     std::vector<Label> labels = {0, 1, 2, 3, 4, 5};
-    std::stable_sort(labels.begin(), labels.end(), [&](Label a, Label b) { return along(normal, a) > along(normal, b); });   // tie: smallest label
+    std::stable_sort(labels.begin(), labels.end(),
+                     [&](Label a, Label b) { return along(normal, a) > along(normal, b); });   // tie: smallest label
     return labels;
 }
 
@@ -177,7 +180,7 @@ Cut removal_cut(const TriMesh& mesh, const State& state, const std::vector<Index
     return cut;
 }
 
-}  // namespace
+}   // namespace
 
 bool surrounded_by_features(const State& state, Index chart) {
     const Range r = state.graph.charts[chart].boundaries;
@@ -207,7 +210,8 @@ Proposals increase_chart_valence(const TriMesh& mesh, const State& state, Index 
     const int chart_axis = axis(state.graph.charts[chart].label);
     for (const Halfedges& contour : contours(mesh, state, chart)) {
         for (const Spot& spot : find_spots(mesh, state, contour)) {
-            const int current = state.graph.boundaries[state.graph.boundary[spot.up[0]]].axis, inserted = 3 - current - chart_axis;
+            const int current = state.graph.boundaries[state.graph.boundary[spot.up[0]]].axis,
+                      inserted = 3 - current - chart_axis;
             for (const Halfedges& polyedge : {spot.down, spot.up}) {
                 const std::size_t balanced = equilibrium(mesh, polyedge, inserted, current);
                 for (std::size_t edges = balanced; edges > 0 && (edges == balanced || edges >= kShortestSegment); edges /= 2) {
@@ -268,8 +272,10 @@ Proposals high_valence_corner(const TriMesh& mesh, const State& state, Index cor
             const Index b = state.graph.boundary[state.graph.ring_halfedges[i]];
             const Boundary& boundary = state.graph.boundaries[b];
             for (const int width : {1, 3}) {
-                propose(proposals, band(mesh, state, vertices_of(mesh, boundary_path(state, b)), boundary.left, width), state.graph.charts[boundary.right].label);
-                propose(proposals, band(mesh, state, vertices_of(mesh, boundary_path(state, b)), boundary.right, width), state.graph.charts[boundary.left].label);
+                propose(proposals, band(mesh, state, vertices_of(mesh, boundary_path(state, b)), boundary.left, width),
+                        state.graph.charts[boundary.right].label);
+                propose(proposals, band(mesh, state, vertices_of(mesh, boundary_path(state, b)), boundary.right, width),
+                        state.graph.charts[boundary.left].label);
             }
         }
     }
@@ -286,7 +292,8 @@ Proposals remove_charts(const TriMesh& mesh, const State& state, const std::vect
         for (std::size_t i = 0; i < cut.facets.size(); i++)
             if (cut.energy.data[i][labels[i]] < kForbidden) patch.push_back({cut.facets[i], labels[i]});
         if (!patch.empty() && (proposals.empty() || proposals.back().size() != patch.size() ||
-                               !std::equal(patch.begin(), patch.end(), proposals.back().begin(), [](const Relabel& a, const Relabel& b) { return a.label == b.label; })))
+                               !std::equal(patch.begin(), patch.end(), proposals.back().begin(),
+                                           [](const Relabel& a, const Relabel& b) { return a.label == b.label; })))
             proposals.push_back(std::move(patch));
     }
     return proposals;
@@ -313,8 +320,9 @@ Proposals grow_chart(const TriMesh& mesh, const State& state, Index chart) {
     std::sort(neighbours.begin(), neighbours.end());
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     for (const Index into : neighbours)
-        for (const int rings : {1, 2, 4, 8}) propose(proposals, band(mesh, state, vertices, into, rings), state.graph.charts[chart].label);
+        for (const int rings : {1, 2, 4, 8})
+            propose(proposals, band(mesh, state, vertices, into, rings), state.graph.charts[chart].label);
     return proposals;
 }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -156,6 +156,7 @@ TEST_CASE("cli: wrong options and operands") {
     CHECK(wrong({"x", "y", "--fast=1"}) == "option --fast takes no value");
     CHECK(wrong({"x", "y", "-o"}) == "option -o needs a value: FILE");
     CHECK(wrong({"x", "y", "-ofile"}) == "unknown option -ofile");
+    CHECK(wrong({"x", "y", "-o=file"}) == "unknown option -o=file");
 }
 
 TEST_CASE("cli: numbers within their range") {
@@ -238,6 +239,7 @@ TEST_CASE("cli: wrong use") {
     check_refused(scratch, "label cube.obj --angle 1.5 -o l.txt", "--angle: expected a number from -1 to 1, found '1.5'");
     for (const char* bad : {"detec", "detect=", "detect=x", "detect=-1", "detect=3.2", "file=1", ""})
         check_refused(scratch, std::string("label cube.obj -o l.txt --features '") + bad + "'", "--features");
+    check_refused(scratch, "label -o l.txt -- --help", "--help: expected a file name");
     check_refused(scratch, "stats cube.obj", "polylab stats: missing LABELS (see polylab stats --help)");
     check_refused(scratch, "explain", "missing PART");
     check_refused(scratch, "diff cube.obj naive.txt", "missing B");
@@ -377,6 +379,8 @@ TEST_CASE("cli: a hint for a part that is turned") {
     scratch.write("d.obj", obj_text(shapes::prism(diamond, 3)));
     scratch.write("l.txt", "0 0 0 0 1 1 1 1 5 5 4 4");   // +X twice, -X twice: ridges, and ends with two boundaries
     CHECK(check_done(scratch, "explain d.obj l.txt", 1).out.find("\nhint: ") != std::string::npos);
+    scratch.write("valid.txt", "0 0 2 2 1 1 3 3 5 5 4 4");
+    CHECK(check_done(scratch, "explain d.obj valid.txt").out == "valid, and every boundary is monotone\n");
     CHECK(scratch.run("label d.obj --method naive --verbose -o m.txt").err.find("\nhint: ") != std::string::npos);
 }
 

@@ -56,7 +56,7 @@ compare)
     for case in "$golden"/cases/*/; do
         if check "$(basename "$case")"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
     done
-    table 2>/dev/null | cmp -s - "$golden/corpus.csv" || { echo "golden/corpus.csv does not say what the cases say"; failed=$((failed + 1)); }
+    table 2>/dev/null | cmp -s - "$golden/corpus.csv" || { echo "$golden/corpus.csv does not say what the cases say"; failed=$((failed + 1)); }
     echo "golden: $passed cases equal, $failed different"
     [ "$passed" -gt 0 ] && [ "$failed" -eq 0 ]
     ;;

@@ -10,11 +10,15 @@
 
 #include "../tests/shapes.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -90,7 +94,8 @@ MeshData polyhedron(std::vector<Vec3> points, const std::vector<std::vector<Inde
     MeshData data;
     data.points = std::move(points);
     for (const std::vector<Index>& face : faces)
-        for (std::size_t i = 2; i < face.size(); i++) data.triangles.insert(data.triangles.end(), {face[0], face[i - 1], face[i]});
+        for (std::size_t i = 2; i < face.size(); i++)
+            data.triangles.insert(data.triangles.end(), {face[0], face[i - 1], face[i]});
     return creased(mesh_data(build_mesh(std::move(data))));
 }
 
@@ -124,7 +129,9 @@ MeshData rhombic_dodecahedron() {
 MeshData pyritohedron() {
     std::vector<Vec3> points;
     for (int i = 0; i < 8; i++) points.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
-    const auto roof = [](int a, int i) { return static_cast<Index>(8 + 4 * a + i); };   // on +-a, above or below the next axis but one
+    const auto roof = [](int a, int i) {
+        return static_cast<Index>(8 + 4 * a + i);
+    };   // on +-a, above or below the next axis but one
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < 4; i++) {
             Vec3 p;
@@ -158,7 +165,8 @@ MeshData bar(const std::vector<Vec3>& path, double half_width, double half_heigh
             out = sum * (2 * half_width * half_width / dot(sum, sum));
         }
         const Vec3 up{0, 0, half_height};
-        for (const Vec3& p : {path[i] - out - up, path[i] + out - up, path[i] + out + up, path[i] - out + up}) data.points.push_back(p);
+        for (const Vec3& p : {path[i] - out - up, path[i] + out - up, path[i] + out + up, path[i] - out + up})
+            data.points.push_back(p);
     }
     const auto add = [&](Index a, Index b, Index c, Index d) { data.triangles.insert(data.triangles.end(), {a, b, c, a, c, d}); };
     for (Index i = 0; i + 1 < static_cast<Index>(n); i++)
@@ -176,62 +184,73 @@ template <class Radius>
 MeshData ball(int n, Radius radius) {
     return mapped(cube(n), [&](const Vec3& q) {
         const Vec3 p = q * 2 - Vec3{double(n), double(n), double(n)};
-        const Vec3 u = p / std::sqrt(dot(p, p));
+        const Vec3 u = unit(p);
         return u * radius(u);
     });
 }
 
-// A tube around the helix of the given radius: `slices` cells along, `sides` around; round, or square if `square`.
-MeshData helix(int slices, int sides, double turns, double radius, double pitch, double thickness, bool square) {
+// Rings of `sides` points, point(i, k) being the k-th of ring i, joined one to the next; `closed`: the last one to the first,
+// otherwise both ends get a flat cover.
+template <class Point>
+MeshData tube(int rings, int sides, bool closed, Point point) {
     MeshData data;
-    for (int i = 0; i <= slices; i++) {
-        const double turn = turns * i / slices, whole = std::floor(turn);
-        const SinCos at = sin_cos((turn - whole) * kTurn);
-        for (int k = 0; k < sides; k++) {
-            Vec3 section;   // x outward, z up
-            if (square) {
-                const int per_side = sides / 4, s = k / per_side;
-                const double t = -1 + 2.0 * (k % per_side) / per_side;
-                section = s == 0 ? Vec3{t, 0, -1} : s == 1 ? Vec3{1, 0, t} : s == 2 ? Vec3{-t, 0, 1} : Vec3{-1, 0, -t};
-            } else {
-                const SinCos around = sin_cos(kTurn * k / sides);
-                section = {around.cos, 0, around.sin};
-            }
-            const double r = radius + thickness * section.x;
-            data.points.push_back({r * at.cos, r * at.sin, pitch * turn + thickness * section.z});
-        }
-    }
+    for (int i = 0; i < rings; i++)
+        for (int k = 0; k < sides; k++) data.points.push_back(point(i, k));
     const auto add = [&](Index a, Index b, Index c) { data.triangles.insert(data.triangles.end(), {a, b, c}); };
-    for (Index i = 0; i < slices; i++)
+    for (Index i = 0; i < (closed ? rings : rings - 1); i++)
         for (Index k = 0; k < sides; k++) {
-            const Index a = i * sides + k, b = i * sides + (k + 1) % sides;
-            add(a, b, b + sides);
-            add(a, b + sides, a + sides);
+            const Index a = i * sides + k, b = i * sides + (k + 1) % sides, up = (i + 1) % rings * sides - i * sides;
+            add(a, b, b + up);
+            add(a, b + up, a + up);
         }
-    for (const Index first : {0, slices * sides}) {   // the ends
-        Vec3 middle;
-        for (Index k = 0; k < sides; k++) middle += data.points[first + k] / sides;
-        const Index m = static_cast<Index>(data.points.size());
-        data.points.push_back(middle);
-        for (Index k = 0; k < sides; k++) first == 0 ? add(m, first + (k + 1) % sides, first + k) : add(m, first + k, first + (k + 1) % sides);
+    if (closed) return mesh_data(build_mesh(std::move(data)));
+    for (const Index first : {0, (rings - 1) * sides}) {
+        Vec3 sum;
+        for (Index k = 0; k < sides; k++) sum += data.points[first + k];
+        data.points.push_back(sum * (1.0 / sides));
+        const Index middle = static_cast<Index>(data.points.size()) - 1;
+        for (Index k = 0; k < sides; k++) {
+            const Index a = first + k, b = first + (k + 1) % sides;
+            first == 0 ? add(middle, b, a) : add(middle, a, b);
+        }
     }
     return sharp(std::move(data));
 }
 
+// Point k of n on the border of the square |x|, |z| <= 1, or on the unit circle.
+Vec3 on_square(int k, int n) {
+    const double t = -1 + 8.0 * (k % (n / 4)) / n;
+    const int side = 4 * k / n;
+    return side == 0 ? Vec3{t, 0, -1} : side == 1 ? Vec3{1, 0, t} : side == 2 ? Vec3{-t, 0, 1} : Vec3{-1, 0, -t};
+}
+Vec3 on_circle(int k, int n) {
+    const SinCos s = sin_cos(kTurn * k / n);
+    return {s.cos, 0, s.sin};
+}
+
+// A tube of the section given (x outward, z up) around a helix; `slices` of it in each turn.
+MeshData helix(int slices, double turns, Vec3 (*section)(int, int), int sides, double radius, double pitch, double thickness) {
+    return tube(static_cast<int>(slices * turns) + 1, sides, false, [=](int i, int k) {
+        const Vec3 at = on_circle(i % slices, slices), p = section(k, sides) * thickness;
+        return Vec3{(radius + p.x) * at.x, (radius + p.x) * at.z, pitch * i / slices + p.z};
+    });
+}
+
 MeshData torus(int n, int m, double radius, double thickness) {
-    MeshData data;
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < m; k++) {
-            const SinCos a = sin_cos(kTurn * i / n), b = sin_cos(kTurn * k / m);
-            const double r = radius + thickness * b.cos;
-            data.points.push_back({r * a.cos, r * a.sin, thickness * b.sin});
-        }
-    for (Index i = 0; i < n; i++)
-        for (Index k = 0; k < m; k++) {
-            const Index a = i * m + k, b = i * m + (k + 1) % m, c = (i + 1) % n * m + k, d = (i + 1) % n * m + (k + 1) % m;
-            data.triangles.insert(data.triangles.end(), {a, c, d, a, d, b});
-        }
-    return data;
+    return tube(n, m, true, [=](int i, int k) {
+        const Vec3 at = on_circle(i, n), p = on_circle(k, m) * thickness;
+        return Vec3{(radius + p.x) * at.x, (radius + p.x) * at.z, p.z};
+    });
+}
+
+// A post along Z whose radius is changed: radius(angle as a point of the unit circle, height from 0 to 1).
+template <class Radius>
+MeshData post(int rings, int sides, double height, Radius radius) {
+    return tube(rings, sides, false, [&](int i, int k) {
+        const Vec3 at = on_circle(k, sides);
+        const double z = double(i) / (rings - 1), r = radius(at, z);
+        return Vec3{r * at.x, r * at.z, height * z};
+    });
 }
 
 // Twisted around the Z axis through (x, y): `turns` from bottom to top.
@@ -260,40 +279,54 @@ MeshData with_needles(MeshData data) {
         const Index f = facet(h), a = mesh.from(h), b = mesh.to(h), c = mesh.to(next(h));
         if (mesh.feature[h] || !used.insert(f).second) continue;
         const Index m = static_cast<Index>(data.points.size());
-        data.points.push_back((data.points[a] + data.points[b]) / 2);
+        data.points.push_back((data.points[a] + data.points[b]) * 0.5);
         for (int k = 0; k < 3; k++) data.triangles[3 * f + k] = std::array<Index, 3>{a, m, c}[k];
         data.triangles.insert(data.triangles.end(), {m, b, c, a, b, m});
     }
     return data;
 }
 
-MeshData blob() {
-    Lcg random(7);
-    const auto next_unit = [&] { return (random.below(2001) - 1000) / 1000.0; };
-    std::vector<std::pair<Vec3, double>> bumps;
-    for (int i = 0; i < 14; i++) {
-        const Vec3 v{next_unit(), next_unit(), next_unit()};
-        bumps.push_back({v / std::sqrt(dot(v, v)), 0.35 * next_unit()});
+// ---- at random, but the same each time
+
+double within(Lcg& random, double size) { return size * (random.below(2001) - 1000) / 1000.0; }
+
+// A ball with bumps and dents of up to `height` each.
+MeshData bumpy_ball(int seed, int n, int bumps, double height) {
+    Lcg random(seed);
+    std::vector<std::pair<Vec3, double>> hills;   // direction, height
+    for (int i = 0; i < bumps; i++) {
+        Vec3 v;
+        for (int a = 0; a < 3; a++) v[a] = within(random, 1);
+        hills.push_back({unit(v), within(random, height)});
     }
-    return ball(10, [&](const Vec3& u) {
+    return ball(n, [&](const Vec3& u) {
         double r = 1;
-        for (const auto& [v, height] : bumps) {
+        for (const auto& [v, h] : hills) {
             const double c = dot(u, v), near = c > 0 ? c * c : 0;
-            r += height * near * near * near;
+            r += h * near * near * near;
         }
         return r;
     });
 }
 
-MeshData crumpled_ball() {
-    Lcg random(11);
-    std::map<std::array<double, 3>, double> radius;
-    return all_edges_named(ball(6, [&](const Vec3& u) { return (700 + random.below(600)) / 1000.0 * (u.x == u.x); }));
+// Radii that vary from vertex to vertex by up to `roughness`.
+MeshData rough_ball(int seed, int n, double roughness) {
+    Lcg random(seed);
+    return ball(n, [&](const Vec3&) { return 1 + within(random, roughness); });
 }
 
-std::vector<Vec3> scaled_points(std::vector<Vec3> points, double by) {
-    for (Vec3& p : points) p = p * by;
-    return points;
+MeshData rough_post(int seed, int rings, int sides, double height, double roughness) {
+    Lcg random(seed);
+    return post(rings, sides, height, [&](const Vec3&, double) { return 1 + within(random, roughness); });
+}
+
+// A twisted square bar whose vertices are moved by up to `roughness` along each axis.
+MeshData rough_bar(int seed, int n, int length, double turns, double roughness) {
+    Lcg random(seed);
+    MeshData data = twisted(box(n, n, length), n / 2.0, n / 2.0, length, turns);
+    for (Vec3& p : data.points)
+        for (int a = 0; a < 3; a++) p[a] += within(random, roughness);
+    return sharp(std::move(data));
 }
 
 struct Shape {
@@ -301,59 +334,151 @@ struct Shape {
     MeshData (*make)();
 };
 
+MeshData doorstop() { return refined(creased(triangular_prism(8, 2, 3)), 3); }
+MeshData unit_ball() {
+    return ball(8, [](const Vec3&) { return 1.0; });
+}
+
 const Shape kShapes[] = {
+    // whole parts of flat faces
     {"cube_12", [] { return creased(cube(1)); }},
     {"cube_45", [] { return turned_around_z(refined(creased(cube(1)), 3), 1, 1); }},
-    {"four_cubes", [] { return blocks({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, 2); }},
-    {"tripod", [] { return blocks({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 2); }},
-    {"cheese", [] { return blocks(cells_of({3, 3, 3}, [](int x, int y, int z) { return (x == 1) + (y == 1) + (z == 1) < 2; }), 1); }},
-    {"slope_branches", [] { return refined(bar({{0, 0, 0}, {8, 0, 2}, {8, 8, 4}, {0, 8, 6}, {0, 0, 8}, {8, 0, 10}}, 1, 1), 3); }},
-    {"octahedron", [] { return refined(creased(octahedron()), 3); }},
+    {"four_cubes",
+     [] {
+         return blocks({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, 2);
+     }},
+    {"three_cubes_at_a_block",
+     [] {
+         return blocks({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 2);
+     }},
+    {"cheese",
+     [] {
+         return blocks(cells_of({3, 3, 3}, [](int x, int y, int z) { return (x == 1) + (y == 1) + (z == 1) < 2; }), 1);
+     }},
+    {"notched_corner",
+     [] {
+         return blocks({{1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}, 2);
+     }},
+    {"slope_branches",
+     [] {
+         return refined(bar({{0, 0, 0}, {8, 0, 2}, {8, 8, 4}, {0, 8, 6}, {0, 0, 8}, {8, 0, 10}}, 1, 1), 2);
+     }},
     {"tetrahedron", [] { return refined(creased(tetrahedron()), 4); }},
+    {"octahedron", [] { return refined(creased(octahedron()), 3); }},
+    {"octahedron_turned",
+     [] { return cycled(turned_around_z(cycled(turned_around_z(refined(creased(octahedron()), 3), 15, 8)), 15, 8)); }},
     {"rhombic_dodecahedron", [] { return refined(rhombic_dodecahedron(), 2); }},
     {"pyritohedron", [] { return refined(pyritohedron(), 2); }},
-    {"steep_pyramid", [] { return refined(spire({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, {0, 0, 5}), 3); }},
-    {"l_spire", [] { return refined(spire({{-2, -2, 0}, {6, -2, 0}, {6, 2, 0}, {2, 2, 0}, {2, 6, 0}, {-2, 6, 0}}, {0, 0, 9}), 3); }},
-    {"star_spire", [] { return refined(spire({{6, 0, 0}, {2, 2, 0}, {0, 6, 0}, {-2, 2, 0}, {-6, 0, 0}, {-2, -2, 0}, {0, -6, 0}, {2, -2, 0}}, {0, 0, 8}), 2); }},
+    {"steep_pyramid",
+     [] {
+         return refined(spire({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, {0, 0, 5}), 3);
+     }},
+    {"l_spire",
+     [] {
+         return refined(spire({{-2, -2, 0}, {6, -2, 0}, {6, 2, 0}, {2, 2, 0}, {2, 6, 0}, {-2, 6, 0}}, {0, 0, 9}), 3);
+     }},
+    {"star_spire",
+     [] {
+         return refined(
+             spire({{6, 0, 0}, {2, 2, 0}, {0, 6, 0}, {-2, 2, 0}, {-6, 0, 0}, {-2, -2, 0}, {0, -6, 0}, {2, -2, 0}}, {0, 0, 8}), 2);
+     }},
     {"wedge_45", [] { return refined(creased(triangular_prism(4, 4, 4)), 3); }},
-    {"doorstop", [] { return refined(creased(triangular_prism(8, 2, 3)), 3); }},
-    {"roof", [] { return refined(creased(prism({{0, 0, 0}, {8, 0, 0}, {4, 7, 0}}, 12)), 3); }},
-    {"deep_groove", [] { return refined(creased(prism({{4, 1, 0}, {8, 8, 0}, {8, 8, 0}, {8, 8, 0}}, 1)), 0); }},
-    {"square_helix", [] { return helix(72, 8, 2.25, 6, 4, 1, true); }},
-    {"spring", [] { return helix(80, 8, 2.5, 5, 3, 1, false); }},
+    {"doorstop", doorstop},
+    {"doorstop_no_features", [] { return without_features(doorstop()); }},
+    {"roof",
+     [] {
+         return refined(creased(prism({{0, 0, 0}, {8, 0, 0}, {4, 7, 0}}, 12)), 3);
+     }},
+    {"deep_groove",
+     [] {
+         return refined(creased(prism({{4, 1, 0}, {2, 8, 0}, {0, 8, 0}, {0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {6, 8, 0}}, 8)), 2);
+     }},
+    {"part_turned_28",
+     [] {
+         return turned_around_z(blocks({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {2, 1, 0}}, 2), 15, 8);
+     }},
+
+    // curved parts
+    {"sphere", unit_ball},
+    {"ellipsoid_turned",
+     [] {
+         return turned_around_z(mapped(unit_ball(), [](const Vec3& p) { return Vec3{3 * p.x, p.y, p.z}; }), 15, 8);
+     }},
     {"torus", [] { return torus(32, 12, 4, 1.5); }},
-    {"sphere", [] { return ball(8, [](const Vec3&) { return 3.0; }); }},
-    {"ellipsoid_turned", [] { return turned_around_z(mapped(ball(8, [](const Vec3&) { return 1.0; }), [](const Vec3& p) { return Vec3{3 * p.x, p.y, p.z}; }), 15, 8); }},
+    {"square_helix", [] { return helix(32, 2.25, on_square, 8, 6, 4, 1); }},
+    {"spring", [] { return helix(32, 2.5, on_circle, 8, 5, 3, 1); }},
+    {"steep_spring", [] { return helix(24, 1.5, on_circle, 8, 4, 24, 1); }},
     {"propeller", [] { return twisted(cross_bar(4, 12), 5, 5, 12, 0.25); }},
+    {"propeller_turned", [] { return twisted(cross_bar(4, 12), 5, 5, 12, 0.75); }},
+    {"spiral_blade", [] { return twisted(box(8, 2, 18), 4, 1, 18, 1); }},
     {"twisted_bar", [] { return twisted(box(3, 3, 18), 1.5, 1.5, 18, 0.5); }},
-    {"part_turned_28", [] { return turned_around_z(blocks({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {2, 1, 0}}, 3), 15, 8); }},
+    {"corkscrew_post",
+     [] {
+         return tube(25, 24, false, [](int i, int k) {
+             const Vec3 at = on_circle(k, 24) * 4, off = on_circle(2 * i % 24, 24) * 1.5;
+             return Vec3{at.x + off.x, at.z + off.z, 0.5 * i};
+         });
+     }},
+    {"necked_post",
+     [] {
+         return tube(25, 24, false, [](int i, int k) {
+             const double r = 4 + 1.5 * on_circle(3 * i % 24, 24).z;
+             const Vec3 at = on_circle(k, 24) * r;
+             return Vec3{at.x, at.z, 0.5 * i};
+         });
+     }},
+    {"rough_post", [] { return without_features(rough_post(4, 20, 32, 4, 0.05)); }},
+    {"rough_ball", [] { return rough_ball(7, 10, 0.08); }},
+    {"rough_bar", [] { return rough_bar(1, 4, 16, 0.25, 0.2); }},
+    {"rough_bar_half_turn", [] { return rough_bar(66, 4, 16, 0.5, 0.1); }},
+    {"blob", [] { return bumpy_ball(12, 9, 30, 0.6); }},
+    {"blob_few_bumps", [] { return bumpy_ball(41, 9, 30, 0.6); }},
+    {"blob_many_bumps", [] { return bumpy_ball(52, 8, 60, 0.9); }},
+    {"blob_turning_point", [] { return bumpy_ball(72, 8, 60, 0.9); }},
+    {"features_everywhere", [] { return all_edges_named(rough_ball(11, 6, 0.3)); }},
+
+    // unusual meshes
     {"two_solids_at_vertex", [] { return refined(creased(two_cubes_at_a_vertex()), 2); }},
     {"pinched_ring", [] { return refined(creased(pinched_ring()), 1); }},
     {"cavity", [] { return refined(creased(hollow_box()), 1); }},
-    {"components", [] {
+    {"components",
+     [] {
          MeshData data = blocks({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 2);
          append(data, moved(refined(creased(octahedron()), 2), {20, 0, 0}));
          append(data, moved(refined(creased(triangular_prism(2, 2, 2)), 2), {0, 20, 0}));
          return data;
      }},
-    {"inward_component", [] {
-         return joined(blocks({{0, 0, 0}, {1, 0, 0}}, 2), turned(moved(refined(creased(triangular_prism(2, 3, 2)), 2), {12, 0, 0})));
+    {"inward_component",
+     [] {
+         const MeshData inward = turned(refined(creased(triangular_prism(2, 3, 2)), 2));
+         return joined(blocks({{0, 0, 0}, {1, 0, 0}}, 2), moved(inward, {12, 0, 0}));
      }},
-    {"isolated_vertices", [] {
+    {"isolated_vertices",
+     [] {
          MeshData data;
          data.points = {{100, 0, 0}, {-100, 0, 0}};   // before and behind the used ones
          append(data, blocks({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}}, 2));
          data.points.push_back({0, 100, 0});
          return data;
      }},
-    {"needles", [] { return with_needles(refined(creased(prism({{0, 0, 0}, {8, 0, 0}, {8, 3, 0}, {0, 5, 0}}, 4)), 2)); }},
-    {"slivers", [] {
-         return mapped(blocks({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, 3), [](const Vec3& p) { return Vec3{p.x + p.y / 8, p.y * p.y * p.y / 4096, p.z * p.z / 8}; });
+    {"needles",
+     [] {
+         return with_needles(refined(creased(prism({{0, 0, 0}, {8, 0, 0}, {8, 3, 0}, {0, 5, 0}}, 4)), 2));
      }},
-    {"features_everywhere", crumpled_ball},
-    {"blob", blob},
-    {"far_and_tiny", [] {
-         return moved(scaled(refined(creased(prism({{0, 0, 0}, {8, 0, 0}, {8, 2, 0}, {2, 6, 0}, {0, 6, 0}}, 4)), 2), 1.0 / (1 << 20)), {1 << 10, -(1 << 10), 1 << 9});
+    {"slivers",
+     [] {
+         const auto squeezed = [](const Vec3& p) { return Vec3{p.x + p.y / 8, p.y * p.y * p.y / 4096, p.z * p.z / 8}; };
+         return mapped(blocks({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, 3), squeezed);
+     }},
+    {"shuffled",
+     [] {
+         Lcg random(3);
+         return renumbered(doorstop(), random).data;
+     }},
+    {"far_and_tiny",
+     [] {
+         const MeshData part = refined(creased(prism({{0, 0, 0}, {8, 0, 0}, {8, 2, 0}, {2, 6, 0}, {0, 6, 0}}, 4)), 2);
+         return moved(scaled(part, 1.0 / (1 << 20)), {1 << 10, -(1 << 10), 1 << 9});
      }},
 };
 
@@ -362,7 +487,8 @@ const Shape kShapes[] = {
 int main(int argc, char** argv) try {
     const std::string command = argc > 1 ? argv[1] : "";
     if (command == "convert" && argc == 4) {
-        MeshData data = read_mesh(argv[2]);
+        const MeshData data = read_mesh(argv[2]);
+        build_mesh(data);   // throws where polylab would refuse it
         write_mesh(argv[3], data);
         return 0;
     }
@@ -370,7 +496,7 @@ int main(int argc, char** argv) try {
         if (argc == 1) std::puts(shape.name);
         if (argc == 2 && command == shape.name) {
             const MeshData data = shape.make();
-            build_mesh(data);   // throws where polylab would refuse it
+            build_mesh(data);
             write_file("-", obj_text(data));
             return 0;
         }

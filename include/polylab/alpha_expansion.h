@@ -30,4 +30,4 @@ bool expand(const PottsEnergy& energy, MaxFlow& network, Label alpha, Labeling& 
 // Cycles over the labels 0..5 in this order, at most `cycles`, ending early after a cycle without change.
 Labeling alpha_expansion(const PottsEnergy& energy, Labeling start, int cycles = 2);
 
-}  // namespace polylab
+}   // namespace polylab

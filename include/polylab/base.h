@@ -34,4 +34,4 @@ private:
     Index line_ = 0;
 };
 
-}  // namespace polylab
+}   // namespace polylab

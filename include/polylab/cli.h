@@ -10,8 +10,8 @@
 namespace polylab {
 
 struct Option {
-    std::string name;       // "--method" or "-o"
-    std::string value;      // what stands for its value in the help; empty for a switch
+    std::string name;    // "--method" or "-o"
+    std::string value;   // what stands for its value in the help; empty for a switch
     std::string help;
 };
 
@@ -29,9 +29,9 @@ struct Arguments {
 struct Command {
     std::string name;
     std::vector<std::string> operands;
-    std::string about;                     // one sentence, then details
+    std::string about;   // one sentence, then details
     std::vector<Option> options;
-    int (*run)(const Arguments&);          // returns the exit status
+    int (*run)(const Arguments&);   // returns the exit status
 };
 
 // Wrong use of the command line: the message, to be followed by where the help is.
@@ -45,4 +45,4 @@ Arguments parse_arguments(const Command& command, const std::vector<std::string>
 
 std::string help(const std::string& program, const Command& command);
 
-}  // namespace polylab
+}   // namespace polylab

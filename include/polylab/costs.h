@@ -23,10 +23,11 @@ std::int32_t angle_cost(double c);
 // The angle between two vectors in microradians; 0 where one of them has no length.
 std::int32_t angle_cost(const Vec3& a, const Vec3& b);
 
-// Sine and cosine of an angle of at most one turn (error below 1e-13), by their Taylor series: + * / only, so the same bits everywhere.
+// Sine and cosine of an angle of at most one turn (error below 1e-13), by their Taylor series: + * / only, so the same bits
+// everywhere.
 struct SinCos {
     double sin, cos;
 };
 SinCos sin_cos(double radians);
 
-}  // namespace polylab
+}   // namespace polylab

@@ -20,4 +20,4 @@ std::vector<ChangedPatch> changed_patches(const TriMesh& mesh, const Labeling& a
 // Counts side by side, where they differ, then the patches.
 std::string diff_text(const TriMesh& mesh, const Labeling& a, const Labeling& b);
 
-}  // namespace polylab
+}   // namespace polylab

@@ -11,11 +11,11 @@ namespace polylab {
 struct Problem {
     enum class Kind { chart, boundary, corner, turning_point };
     Kind kind;
-    Index element = kNone;    // chart or boundary number, corner number; of a turning-point its boundary
-    Index vertex = kNone;     // of a corner or turning-point
-    Vec3 position;            // where to look: centre of a chart's area, middle of a boundary, the vertex
-    double size = 0;          // area of a chart, length of a boundary; orders problems of one kind
-    std::string text;         // one line, in words
+    Index element = kNone;   // chart or boundary number, corner number; of a turning-point its boundary
+    Index vertex = kNone;    // of a corner or turning-point
+    Vec3 position;           // where to look: centre of a chart's area, middle of a boundary, the vertex
+    double size = 0;         // area of a chart, length of a boundary; orders problems of one kind
+    std::string text;        // one line, in words
 };
 
 // Every problem, worst first: invalid charts (largest first), boundaries (longest first), corners, then turning-points
@@ -29,4 +29,4 @@ std::string hint(const TriMesh& mesh);
 // Statistics and problems as one JSON object: the published keys and ours.
 std::string statistics_json(const Statistics& s, const std::vector<Problem>& problems);
 
-}  // namespace polylab
+}   // namespace polylab

@@ -37,4 +37,4 @@ PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options =
 // Facets with a label in `locks` (empty: none) get it: any other costs 100000 more.
 Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options = {}, const Labeling& locks = {});
 
-}  // namespace polylab
+}   // namespace polylab

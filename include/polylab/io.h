@@ -41,4 +41,4 @@ Labeling read_labels(const std::string& path, Index facets, bool allow_free = fa
 Labeling read_labels_text(std::string_view text, const std::string& name, Index facets, bool allow_free = false);
 std::string labels_text(const Labeling& labels);   // one per line
 
-}  // namespace polylab
+}   // namespace polylab

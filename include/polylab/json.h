@@ -35,4 +35,4 @@ private:
     bool empty_ = true;   // nothing in the innermost bracket yet
 };
 
-}  // namespace polylab
+}   // namespace polylab

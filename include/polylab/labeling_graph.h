@@ -32,18 +32,18 @@ struct Range {
 struct Chart {
     Label label = 0;
     Index smallest_facet = kNone;
-    Index facets = 0;             // number of them
-    Range boundaries;             // in LabelingGraph::chart_boundaries, by increasing number
-    bool valid = false;           // at least 4 boundaries: published code; paper: adjacent charts. differs on closed contacts
+    Index facets = 0;     // number of them
+    Range boundaries;     // in LabelingGraph::chart_boundaries, by increasing number
+    bool valid = false;   // at least 4 boundaries: published code; paper: adjacent charts. differs on closed contacts
 };
 
 struct Boundary {
-    Range halfedges;              // in LabelingGraph::halfedges, in order
+    Range halfedges;                     // in LabelingGraph::halfedges, in order
     Index left = kNone, right = kNone;   // charts
     Index start = kNone, end = kNone;    // corners
-    int axis = kNone;             // the axis it follows in the polycube; kNone between opposite labels
-    bool on_features = false;     // every edge is a kept feature edge
-    bool valid = false;           // orthogonal labels, or opposite ones over edges of 180 degrees or more (if allowed)
+    int axis = kNone;                    // the axis it follows in the polycube; kNone between opposite labels
+    bool on_features = false;            // every edge is a kept feature edge
+    bool valid = false;                  // orthogonal labels, or opposite ones over edges of 180 degrees or more (if allowed)
 
     bool closed() const { return start == end; }
 };
@@ -51,16 +51,16 @@ struct Boundary {
 // A corner has one ring per fan of facets in which three or more boundary edges meet.
 struct Ring {
     Index corner = kNone;
-    Range halfedges;              // in LabelingGraph::ring_halfedges: border half-edges that leave the vertex,
-                                  // counter-clockwise, the smallest first
+    Range halfedges;   // in LabelingGraph::ring_halfedges: border half-edges that leave the vertex,
+                       // counter-clockwise, the smallest first
     bool valid = false;
 };
 
 struct Corner {
     Index vertex = kNone;
-    Range rings;                  // in LabelingGraph::rings
-    Index valence = 0;            // boundary edges that meet here
-    bool valid = false;           // every ring is
+    Range rings;          // in LabelingGraph::rings
+    Index valence = 0;    // boundary edges that meet here
+    bool valid = false;   // every ring is
 };
 
 struct LabelingGraph {
@@ -71,12 +71,12 @@ struct LabelingGraph {
     std::vector<Corner> corners;
     std::vector<Ring> rings;
 
-    std::vector<Index> chart;               // facet -> chart
-    std::vector<Index> boundary;            // half-edge -> boundary; kNone inside charts
-    std::vector<Index> corner;              // vertex -> corner or kNone
-    std::vector<Index> halfedges;           // of all boundaries
-    std::vector<Index> chart_boundaries;    // of all charts
-    std::vector<Index> ring_halfedges;      // of all rings
+    std::vector<Index> chart;              // facet -> chart
+    std::vector<Index> boundary;           // half-edge -> boundary; kNone inside charts
+    std::vector<Index> corner;             // vertex -> corner or kNone
+    std::vector<Index> halfedges;          // of all boundaries
+    std::vector<Index> chart_boundaries;   // of all charts
+    std::vector<Index> ring_halfedges;     // of all rings
 
     Index invalid_charts = 0, invalid_boundaries = 0, invalid_corners = 0;
 
@@ -111,4 +111,4 @@ std::string graph_text(const LabelingGraph& graph);
 // Throws std::logic_error where the graph is not the labeling's: counts, incidences, numbering, directions. For tests.
 void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& graph);
 
-}  // namespace polylab
+}   // namespace polylab

@@ -11,8 +11,8 @@
 
 namespace polylab {
 
-using Label = std::int8_t;                 // 0..5; kNoLabel where a file or a lock leaves it open
-using Labeling = std::vector<Label>;       // one label per facet, in the order of the file
+using Label = std::int8_t;             // 0..5; kNoLabel where a file or a lock leaves it open
+using Labeling = std::vector<Label>;   // one label per facet, in the order of the file
 inline constexpr int kLabels = 6;
 inline constexpr Label kNoLabel = -1;
 inline constexpr const char* kLabelName[kLabels] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
@@ -30,4 +30,4 @@ inline Vec3 direction(Label l) {
 // How much of n goes along l: dot(n, direction(l)) without the multiplications.
 inline double along(const Vec3& n, Label l) { return l % 2 == 0 ? n[axis(l)] : -n[axis(l)]; }
 
-}  // namespace polylab
+}   // namespace polylab

@@ -58,18 +58,18 @@ private:
     std::vector<Index> residual_;      // arc -> residual capacity
     std::vector<Index> arc_of_edge_;   // edge -> its two arcs, there and back
 
-    std::vector<Index> terminal_;      // node -> residual capacity from the source (> 0) or to the sink (< 0)
-    std::vector<Tree> tree_;           // node -> search tree it belongs to
-    std::vector<Index> parent_;        // node -> arc to its parent, or kRoot, kOrphan, kNone
-    std::vector<Index> stamp_;         // node -> augmentation after which its distance was found
-    std::vector<Index> distance_;      // node -> number of arcs to its terminal, at that time
+    std::vector<Index> terminal_;   // node -> residual capacity from the source (> 0) or to the sink (< 0)
+    std::vector<Tree> tree_;        // node -> search tree it belongs to
+    std::vector<Index> parent_;     // node -> arc to its parent, or kRoot, kOrphan, kNone
+    std::vector<Index> stamp_;      // node -> augmentation after which its distance was found
+    std::vector<Index> distance_;   // node -> number of arcs to its terminal, at that time
 
-    std::vector<Index> active_;        // ring buffer of nodes whose arcs may lead out of their tree
-    std::vector<char> queued_;         // node -> 1 while in active_
+    std::vector<Index> active_;   // ring buffer of nodes whose arcs may lead out of their tree
+    std::vector<char> queued_;    // node -> 1 while in active_
     std::size_t active_begin_ = 0, active_count_ = 0;
-    std::vector<Index> orphans_;       // nodes that lost their parent
+    std::vector<Index> orphans_;   // nodes that lost their parent
     Index augmentations_ = 0;
     std::int64_t flow_ = 0;
 };
 
-}  // namespace polylab
+}   // namespace polylab

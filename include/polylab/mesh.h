@@ -39,7 +39,7 @@ struct MeshData {
 inline constexpr double kFeatureCos = 0.87758256189037276;
 
 struct FeatureOptions {
-    bool detect = false;        // true: all sharp edges of the geometry, instead of those that the file names
+    bool detect = false;   // true: all sharp edges of the geometry, instead of those that the file names
     double cosine = kFeatureCos;
 };
 
@@ -48,23 +48,23 @@ constexpr Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
 constexpr Index prev(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 struct TriMesh {
-    std::vector<Vec3> points;       // vertex -> position, model units
-    std::vector<Index> origin;      // half-edge -> vertex it leaves; facet f has the vertices origin[3f..3f+2]
-    std::vector<Index> opposite;    // half-edge -> the other half-edge of its edge, never kNone
-    std::vector<Vec3> normal;       // facet -> unit normal, outward; zero where the facet has no area
-    std::vector<char> feature;      // half-edge -> 1 on a kept feature edge (both half-edges have it)
-    double mean_edge = 0;           // mean length of the edges, the unit of lengths of all operators
+    std::vector<Vec3> points;      // vertex -> position, model units
+    std::vector<Index> origin;     // half-edge -> vertex it leaves; facet f has the vertices origin[3f..3f+2]
+    std::vector<Index> opposite;   // half-edge -> the other half-edge of its edge, never kNone
+    std::vector<Vec3> normal;      // facet -> unit normal, outward; zero where the facet has no area
+    std::vector<char> feature;     // half-edge -> 1 on a kept feature edge (both half-edges have it)
+    double mean_edge = 0;          // mean length of the edges, the unit of lengths of all operators
 
     // What construction met, for messages and statistics.
-    Index components = 0;           // edge-connected
-    Index cavities = 0;             // components that bound a hole inside another one
-    Index turned_components = 0;    // components turned as a whole
-    Index turned_facets = 0;        // facets whose direction differs from the file's
-    Index isolated_vertices = 0;    // vertices without facet, kept in the numbering
-    Index flat_facets = 0;          // facets without area
-    Index features_given = 0;       // feature edges of the file, as listed
-    Index features_kept = 0;        // distinct edges with feature[h] set
-    Index features_off = 0;         // those of the file, as listed, that are not edges of the surface
+    Index components = 0;          // edge-connected
+    Index cavities = 0;            // components that bound a hole inside another one
+    Index turned_components = 0;   // components turned as a whole
+    Index turned_facets = 0;       // facets whose direction differs from the file's
+    Index isolated_vertices = 0;   // vertices without facet, kept in the numbering
+    Index flat_facets = 0;         // facets without area
+    Index features_given = 0;      // feature edges of the file, as listed
+    Index features_kept = 0;       // distinct edges with feature[h] set
+    Index features_off = 0;        // those of the file, as listed, that are not edges of the surface
 
     Index vertices() const { return static_cast<Index>(points.size()); }
     Index facets() const { return static_cast<Index>(normal.size()); }
@@ -101,4 +101,4 @@ std::vector<std::string> notes(const TriMesh& mesh);
 // Throws std::logic_error where an invariant of TriMesh does not hold. For tests. O(n)
 void validate(const TriMesh& mesh);
 
-}  // namespace polylab
+}   // namespace polylab

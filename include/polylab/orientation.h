@@ -12,8 +12,8 @@
 namespace polylab {
 
 struct Orientation {
-    std::vector<char> turn;        // facet -> 1 where it has to be turned
-    Index components = 0;          // edge-connected
+    std::vector<char> turn;   // facet -> 1 where it has to be turned
+    Index components = 0;     // edge-connected
     Index cavities = 0;
     Index turned_components = 0;   // of which every facet has to be turned
 };
@@ -24,4 +24,4 @@ struct Orientation {
 // for each component whose box is inside another's.
 Orientation orient(const std::vector<Vec3>& points, const std::vector<Index>& origin, const std::vector<Index>& opposite);
 
-}  // namespace polylab
+}   // namespace polylab

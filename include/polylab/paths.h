@@ -29,7 +29,8 @@ Halfedges lost_features_at(const TriMesh& mesh, const State& state, Index outgoi
 
 // Facets of a chart that are reached from the seeds (facets of it) without crossing the walls (half-edges, either way).
 // Empty where both sides of a wall are reached: then the walls enclose nothing.
-std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index chart, const std::vector<Index>& seeds, const Halfedges& walls);
+std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index chart, const std::vector<Index>& seeds,
+                                  const Halfedges& walls);
 
 // Facets of a chart (kNone: of any) that touch the given vertices, then those that touch these, `rings` times.
 std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart, int rings);
@@ -48,4 +49,4 @@ Label best_label(const Vec3& v, int forbidden_axis, int other_forbidden_axis);
 
 Patch relabel(const std::vector<Index>& facets, Label label);
 
-}  // namespace polylab
+}   // namespace polylab

@@ -27,4 +27,4 @@ TriMesh read_surface(const std::string& path, const FeatureOptions& features = {
 // The whole method: graph-cut, then both routines with their defaults. statistics() tells what the result is worth.
 Labeling label_polycube(const TriMesh& mesh);
 
-}  // namespace polylab
+}   // namespace polylab

@@ -35,4 +35,4 @@ Proposals directional_path(const TriMesh& mesh, const State& state, const Turnin
 // Whether an edge of the boundary beside the turning-point is a kept feature edge.
 bool beside_feature(const TriMesh& mesh, const State& state, const TurningPoint& t);
 
-}  // namespace polylab
+}   // namespace polylab

@@ -17,16 +17,16 @@ struct Step {
     Index element = kNone;      // chart, boundary or corner number; the vertex of a turning-point
     bool in_sequence = false;   // part of a sequence that may be given up as a whole
     bool kept = false;
-    Index proposals = 0;        // how many variants were tried
-    Index facets = 0;           // of the best one: how many facets it relabels
-    Score before, after;        // after: of the best variant, kept or not
+    Index proposals = 0;   // how many variants were tried
+    Index facets = 0;      // of the best one: how many facets it relabels
+    Score before, after;   // after: of the best variant, kept or not
 };
 
 struct RoutineOptions {
     bool validity = true, monotonicity = true;   // which of the two routines run
     bool allow_opposite = true;
-    Labeling locks;                              // facet -> label that it keeps, or kNoLabel; empty: none
-    std::function<void(const Step&)> trace;      // called after each step, if set
+    Labeling locks;                           // facet -> label that it keeps, or kNoLabel; empty: none
+    std::function<void(const Step&)> trace;   // called after each step, if set
 };
 
 // The best labeling found from `start`, never worse than it by the score.
@@ -37,4 +37,4 @@ State run_routines(const TriMesh& mesh, Labeling start, const RoutineOptions& op
 // with `| ` in front inside sequences.
 std::string trace_line(const Step& step);
 
-}  // namespace polylab
+}   // namespace polylab

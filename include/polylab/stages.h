@@ -17,4 +17,4 @@ const std::vector<std::string>& stage_names();
 // The text of one stage, all options at their defaults. Throws InputError where there is no such stage.
 std::string stage_text(const TriMesh& mesh, const std::string& stage);
 
-}  // namespace polylab
+}   // namespace polylab

@@ -22,9 +22,9 @@ using Patch = std::vector<Relabel>;
 
 // Compared from left to right, less is better; integers only.
 struct Score {
-    Index invalid = 0;        // charts, boundaries and corners
-    Index turning_points = 0; // vertices, the count that depends on no direction
-    std::int64_t loss = 0;    // fidelity and feature edges, see Judge
+    Index invalid = 0;          // charts, boundaries and corners
+    Index turning_points = 0;   // vertices, the count that depends on no direction
+    std::int64_t loss = 0;      // fidelity and feature edges, see Judge
 
     bool operator<(const Score& b) const {
         return std::tie(invalid, turning_points, loss) < std::tie(b.invalid, b.turning_points, b.loss);
@@ -67,4 +67,4 @@ private:
     std::int64_t loss_per_feature_ = 0;
 };
 
-}  // namespace polylab
+}   // namespace polylab

@@ -19,13 +19,13 @@ struct Statistics {
     Index charts = 0, invalid_charts = 0;
     Index boundaries = 0, invalid_boundaries = 0, non_monotone_boundaries = 0;   // the last as published
     Index corners = 0, invalid_corners = 0;
-    Index turning_points = 0;               // vertices, as published
-    Index own_turning_points = 0;           // vertices, independent of directions: drives the algorithms
+    Index turning_points = 0;       // vertices, as published
+    Index own_turning_points = 0;   // vertices, independent of directions: drives the algorithms
     double fidelity_min = 0, fidelity_avg = 0, fidelity_max = 0, fidelity_sd = 0;   // over facets, as published
-    double fidelity_area_avg = 0;           // weighted by area
-    Index features_preserved = 0;           // kept feature edges with different labels at their sides
-    Index features_lost = 0;                // kept feature edges with one label
-    Index features_ignored = 0;             // feature edges of the file that are not kept
+    double fidelity_area_avg = 0;                                                   // weighted by area
+    Index features_preserved = 0;   // kept feature edges with different labels at their sides
+    Index features_lost = 0;        // kept feature edges with one label
+    Index features_ignored = 0;     // feature edges of the file that are not kept
     bool allow_opposite = true;
 
     Index invalid() const { return invalid_charts + invalid_boundaries + invalid_corners; }
@@ -45,4 +45,4 @@ std::string summary(const Statistics& s);
 void write_json(JsonWriter& json, const Statistics& s);
 void write_json_end(JsonWriter& json, const Statistics& s);
 
-}  // namespace polylab
+}   // namespace polylab

@@ -23,7 +23,7 @@ struct SurfaceMap {
 };
 
 struct TetSurface {
-    MeshData surface;               // facets by tetrahedron, then k; vertices of the surface only, in the order of the file
+    MeshData surface;   // facets by tetrahedron, then k; vertices of the surface only, in the order of the file
     SurfaceMap map;
 };
 
@@ -39,4 +39,4 @@ std::string surface_map_text(const SurfaceMap& map);
 SurfaceMap read_surface_map(const std::string& path);
 SurfaceMap read_surface_map_text(std::string_view text, const std::string& name);
 
-}  // namespace polylab
+}   // namespace polylab

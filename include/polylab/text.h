@@ -41,7 +41,7 @@ public:
 
     [[noreturn]] void fail(const std::string& expected, std::string_view found) const;
     const std::string& file() const { return file_; }
-    Index line() const { return line_; }                          // of the token read last
+    Index line() const { return line_; }   // of the token read last
     std::size_t bytes_left() const { return text_.size() - at_; }
 
 private:
@@ -53,4 +53,4 @@ private:
     Index line_ = 1;
 };
 
-}  // namespace polylab
+}   // namespace polylab

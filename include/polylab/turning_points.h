@@ -20,9 +20,9 @@ namespace polylab {
 // The energy of a two-label problem on a chain of n edges. change[i] is between edge i and edge i+1; the last one, between
 // the last edge and the first, is used in closed chains only.
 struct Chain {
-    std::vector<int> cost[2];      // edge -> cost of going along -axis [0], along +axis [1]
-    std::vector<int> change;       // edge -> cost of the next edge going the other way
-    std::vector<Index> vertex;     // edge -> vertex where it starts
+    std::vector<int> cost[2];    // edge -> cost of going along -axis [0], along +axis [1]
+    std::vector<int> change;     // edge -> cost of the next edge going the other way
+    std::vector<Index> vertex;   // edge -> vertex where it starts
 
     Index size() const { return static_cast<Index>(change.size()); }
 };
@@ -40,13 +40,13 @@ std::vector<Index> published_chain_turns(const Chain& chain, bool closed);
 
 struct TurningPoint {
     Index boundary = kNone;
-    Index position = kNone;    // in the boundary: the turning-point is where its half-edge number `position` starts
+    Index position = kNone;   // in the boundary: the turning-point is where its half-edge number `position` starts
     Index vertex = kNone;
 };
 
 struct TurningPoints {
-    std::vector<TurningPoint> points;      // by boundary, then position
-    Index vertices = 0;                    // distinct vertices among them: the count of the statistics
+    std::vector<TurningPoint> points;   // by boundary, then position
+    Index vertices = 0;                 // distinct vertices among them: the count of the statistics
     Index non_monotone_boundaries = 0;
 };
 
@@ -64,4 +64,4 @@ bool leans_left(const TriMesh& mesh, const LabelingGraph& graph, const TurningPo
 // The corner of the boundary that is nearer along it; kNone for closed boundaries without corner. tie: the end
 Index closest_corner(const TriMesh& mesh, const LabelingGraph& graph, const TurningPoint& t);
 
-}  // namespace polylab
+}   // namespace polylab

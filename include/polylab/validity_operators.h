@@ -47,4 +47,4 @@ Proposals grow_chart(const TriMesh& mesh, const State& state, Index chart);
 // Whether every boundary of the chart lies on kept feature edges: then it is the part's own shape, and not to be removed.
 bool surrounded_by_features(const State& state, Index chart);
 
-}  // namespace polylab
+}   // namespace polylab

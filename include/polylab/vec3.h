@@ -20,9 +20,7 @@ struct Vec3 {
 };
 
 inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+inline Vec3 cross(const Vec3& a, const Vec3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 // a / |a|, or the zero vector where |a| is at most 1e-30 (a facet without area has no normal).
@@ -31,4 +29,4 @@ inline Vec3 unit(const Vec3& a) {
     return length > 1e-30 ? a * (1 / length) : Vec3{};
 }
 
-}  // namespace polylab
+}   // namespace polylab
