@@ -49,8 +49,8 @@ struct Pass {
 constexpr Pass kPasses[] = {{0.001, false}, {0.004, false}, {0.016, false}, {0.004, true}, {0.016, true}, {1, true}};
 
 // A bound in units of work, not of time, so that results don't depend on the machine: proposals that a run may try. CAD
-// parts need up to 2000; labelings that are mostly noise would go on for long.
-constexpr Index kMostProposals = 5000;
+// parts need up to 6000; labelings that are mostly noise would go on for long.
+constexpr Index kMostProposals = 20000;
 
 class Routines {
 public:

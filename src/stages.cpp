@@ -37,8 +37,9 @@ std::string costs_stage(const TriMesh& mesh) {
     std::string out;
     const PottsEnergy energy = labeling_energy(mesh);
     for (const auto& d : energy.data) line(out, "data", {d[0], d[1], d[2], d[3], d[4], d[5]});
-    for (std::size_t e = 0; e < energy.weight.size(); e++)
-        line(out, "pair", {energy.ends[2 * e], energy.ends[2 * e + 1], energy.weight[e]});
+    Index e = 0;   // the energy's edges come in the order of their smaller half-edges
+    for (Index h = 0; h < mesh.halfedges(); h++)
+        if (h < mesh.opposite[h]) line(out, "pair", {h, energy.weight[e++]});
     return out;
 }
 

@@ -44,8 +44,8 @@ TEST_CASE("golden: every stage of every case is as committed") {
 }
 
 TEST_CASE("golden: a corrupted line is found and shown") {
-    const fs::path copy = copy_of("small_cube");
-    const fs::path file = copy / "cases/small_cube/09-labels.txt";
+    const fs::path copy = copy_of("cube_12");
+    const fs::path file = copy / "cases/cube_12/09-labels.txt";
     std::ostringstream text;
     text << std::ifstream(file).rdbuf();
     std::string labels = text.str();
@@ -55,16 +55,16 @@ TEST_CASE("golden: a corrupted line is found and shown") {
     std::ofstream(file) << labels;
     const Run run = compare(copy.string());
     CHECK_FALSE(run.passed);
-    CHECK(run.output.find("small_cube: stage labels differs first at line 3") != std::string::npos);
+    CHECK(run.output.find("cube_12: stage labels differs first at line 3") != std::string::npos);
     CHECK(run.output.find(std::string("found:    ") + old) != std::string::npos);
 }
 
 TEST_CASE("golden: a missing golden is an error, and so is an empty kit") {
-    const fs::path copy = copy_of("small_cube");
-    fs::remove(copy / "cases/small_cube/03-naive.txt");
+    const fs::path copy = copy_of("cube_12");
+    fs::remove(copy / "cases/cube_12/03-naive.txt");
     Run run = compare(copy.string());
     CHECK_FALSE(run.passed);
-    CHECK(run.output.find("small_cube: stage naive: no golden file") != std::string::npos);
+    CHECK(run.output.find("cube_12: stage naive: no golden file") != std::string::npos);
     fs::remove_all(copy / "cases");
     CHECK_FALSE(compare(copy.string()).passed);
 }

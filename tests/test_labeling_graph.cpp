@@ -94,8 +94,10 @@ std::string reference_text(const TriMesh& mesh, const Labeling& labels, bool all
             a = b = std::min(a, b);
         };
         for (Index h = 0; h < mesh.halfedges(); h++) {
-            if (!border(h)) agree(chart[facet(h)], chart[mesh.right(h)]);
-            if (!border(h)) continue;
+            if (!border(h)) {
+                agree(chart[facet(h)], chart[mesh.right(h)]);
+                continue;
+            }
             agree(boundary[h], boundary[mesh.opposite[h]]);
             if (following(h) != kNone) agree(boundary[h], boundary[following(h)]);
         }
@@ -348,7 +350,8 @@ TEST_CASE("labeling graph: random labelings are as the definitions say, also in 
             for (int again = 0; again < 4; again++) {
                 const Labeling labels = patchy(mesh, kind.colours, kind.stride, kind.rounds * mesh.facets(), random);
                 const bool allow_opposite = again % 2 == 0;
-                CAPTURE(labelings++);
+                labelings++;
+                CAPTURE(labelings);
                 const LabelingGraph graph = build_graph(mesh, labels, allow_opposite);
                 CHECK_NOTHROW(validate(mesh, labels, graph));
                 CHECK(graph_text(graph) == reference_text(mesh, labels, allow_opposite));
@@ -569,14 +572,14 @@ TEST_CASE("labeling graph: Figures 4 and 9, corners of valence 4 and 6") {
         {{kX, kY, kNegX, kY, kX, kZ}, true},          // Z Z Z Z Y Y: pairs
     };
     for (const Cell& cell : cells) {
-        const Index n = static_cast<Index>(cell.sides.size());
+        const Index n = static_cast<Index>(cell.sides.size()), row = static_cast<Index>(&cell - cells);
+        CAPTURE(row);
         const TriMesh mesh = build_mesh(pyramid(n));
         const Labeling labels = pyramid_labels(cell.sides);
         for (const bool allow_opposite : {true, false}) {   // no boundary between opposite labels: no difference
             const LabelingGraph graph = build_graph(mesh, labels, allow_opposite);
             validate(mesh, labels, graph);
             const Corner& apex = graph.corners[graph.corner[n]];
-            CAPTURE(cell.sides);
             CHECK(apex.valence == n);
             CHECK(apex.valid == cell.valid);
         }
@@ -584,7 +587,7 @@ TEST_CASE("labeling graph: Figures 4 and 9, corners of valence 4 and 6") {
 }
 
 TEST_CASE("labeling graph: a corner with a trio and pairs, of any valence") {
-    // X Y Z X Y has five axes Z X Y Z X ... and the last boundary Y X closes with Z: Z Z Z X Y, a pair and a trio.
+    // Around labels X Y Z X Y: axes Z X Y Z Z, a trio and a pair.
     CHECK(valid_ring({2, 0, 1, 2, 2}, true));
     for (Index n = 3; n <= 9; n++) {
         const std::vector<int> same(n, 1);
@@ -604,17 +607,20 @@ TEST_CASE("labeling graph: rings next to boundaries between opposite labels") {
     };
     const int o = kNone;
     const Row rows[] = {
-        {{o, 2, 2}, true},   // both masked: nothing is left, the vertex is inside
-        {{o, 2, 2, o}, true},        {{o, o, o}, true}, {{o, 2, 0, 1}, false},   // X alone is left
-        {{o, 2, 0, 0, 1}, true},                                                 // a pair X: the vertex lies on a boundary
-        {{o, 2, 0, 1, 1}, false},                                                // X Y: neither pair nor trio
-        {{o, 2, 0, 1, 2, 2}, true},                                              // X Y Z
-        {{2, 0, 1, 2, o, 2}, true},                                              // the same, read from elsewhere
-        {{o, 2, 0, 0, 0, 2}, false},                                             // X three times
-        {{0, 1, 2, o, 1, 1}, false},                                             // X and a pair Y
+        {{o, 2, 2}, true},             // both masked: nothing is left, the vertex is inside
+        {{o, 2, 2, o}, true},          // again
+        {{o, o, o}, true},             // again
+        {{o, 2, 0, 1}, false},         // X alone is left
+        {{o, 2, 0, 0, 1}, true},       // a pair X: the vertex lies on a boundary
+        {{o, 2, 0, 1, 1}, false},      // X Y: neither pair nor trio
+        {{o, 2, 0, 1, 2, 2}, true},    // X Y Z
+        {{2, 0, 1, 2, o, 2}, true},    // the same ring from another start
+        {{o, 2, 0, 0, 0, 2}, false},   // X three times
+        {{0, 1, 2, o, 1, 1}, false},   // X and a pair Y
     };
     for (const Row& row : rows) {
-        CAPTURE(row.axes);
+        const auto number = &row - rows;
+        CAPTURE(number);
         CHECK(valid_ring(row.axes, true) == row.valid);
         CHECK_FALSE(valid_ring(row.axes, false));
     }

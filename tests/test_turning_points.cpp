@@ -1,13 +1,14 @@
 // Turning-points: the chain solvers against enumeration, and boundaries on a cube whose answer is plain.
 #include "polylab/turning_points.h"
 
-#include "polylab/costs.h"
 #include "polylab/initial_labeling.h"
 #include "shapes.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -156,10 +157,9 @@ Labeling with_squares(Index n, const std::vector<std::array<Index, 2>>& squares,
 
 // The boundary between +X and +Z of cube(6) leaves its edge at y = 4, comes back to y = 4 - length, and goes on:
 //
-//    y  6 +          the squares of the upper face that are +X; the chart
-//       5 +---+---+  +X goes on beyond x = 6
-//       4 +   +---+
-//         +   |      length 3
+//    y  5 +---+---+  the squares of the upper face that are +X, for length 3;
+//       4 |   +---+  that chart goes on beyond x = 6
+//         |   |
 //       1 +---+
 //         4   5   6 x
 Labeling hooked(Index length) {
@@ -352,6 +352,23 @@ TEST_CASE("turning-points: a bay turns once") {
         CHECK(mesh.from(graph.halfedges[graph.boundaries[t.boundary].halfedges.first + t.position]) == t.vertex);
         CHECK(published_turning_points(mesh, graph).vertices == 1);
     }
+}
+
+TEST_CASE("turning-points: stairs and a comb are jagged, but turn only along their axis") {
+    const TriMesh mesh = build_mesh(cube(6));
+    std::vector<std::array<Index, 2>> stairs, comb;
+    const Index height[] = {0, 1, 2, 4, 3, 2};   // at y = 0 … 5, squares from the edge x = 6 inward
+    for (Index y = 0; y < 6; y++)
+        for (Index i = 0; i < height[y]; i++) stairs.push_back({5 - i, y});
+    for (const Index y : {1, 3})
+        for (Index x = 3; x < 6; x++) comb.push_back({x, y});
+    // With +X beyond the edge one boundary, along Y, which it never goes back.
+    CHECK(find_turning_points(mesh, build_graph(mesh, with_squares(6, stairs, kX))).points.empty());
+    CHECK(find_turning_points(mesh, build_graph(mesh, with_squares(6, comb, kX))).points.empty());
+    // With +Y the teeth are two bays, along X.
+    const TurningPoints found = find_turning_points(mesh, build_graph(mesh, with_squares(6, comb, kY)));
+    CHECK(found.vertices == 2);
+    CHECK(found.non_monotone_boundaries == 2);
 }
 
 TEST_CASE("turning-points: published boundaries run as a depth-first search finds them") {

@@ -15,7 +15,7 @@ scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 stages="mesh costs naive tilted graphcut graph turning-points trace labels statistics"
 
-part_of() { ls "$golden/cases/$1"/in.obj "$golden/cases/$1"/in.mesh 2>/dev/null | head -n 1; }
+part_of() { ls "$golden/cases/$1"/*.obj "$golden/cases/$1"/*.mesh 2>/dev/null | head -n 1; }
 file_of() { echo "$golden/cases/$1/$(echo "$stages" | tr ' ' '\n' | grep -nx "$2" | cut -d: -f1 | sed 's/^.$/0&/')-$2.txt"; }
 run() { "$program" stage "$2" "$(part_of "$1")" >"$scratch/actual" 2>"$scratch/error"; }
 
@@ -63,7 +63,7 @@ compare)
 update)
     [ $# -gt 0 ] || { echo "update: name the cases" >&2; exit 2; }
     for case in "$@"; do
-        [ -n "$(part_of "$case")" ] || { echo "$case: no input in.obj or in.mesh" >&2; exit 2; }
+        [ -n "$(part_of "$case")" ] || { echo "$case: no input (.obj or .mesh)" >&2; exit 2; }
         for stage in $stages; do
             file=$(file_of "$case" "$stage")
             run "$case" "$stage" || { cat "$scratch/error" >&2; exit 2; }

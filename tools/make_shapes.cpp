@@ -430,6 +430,7 @@ const Shape kShapes[] = {
     {"rough_post", [] { return without_features(rough_post(4, 20, 32, 4, 0.05)); }},
     {"rough_ball", [] { return rough_ball(7, 10, 0.08); }},
     {"rough_bar", [] { return rough_bar(1, 4, 16, 0.25, 0.2); }},
+    {"rough_bar_strong", [] { return rough_bar(24, 4, 16, 0.3, 0.3); }},
     {"rough_bar_half_turn", [] { return rough_bar(66, 4, 16, 0.5, 0.1); }},
     {"blob", [] { return bumpy_ball(12, 9, 30, 0.6); }},
     {"blob_few_bumps", [] { return bumpy_ball(41, 9, 30, 0.6); }},
