@@ -11,13 +11,22 @@ std::string Arguments::get(const std::string& name, const std::string& otherwise
     return found == options.end() ? otherwise : found->second;
 }
 
+namespace {
+
+[[noreturn]] void refuse_number(const std::string& name, const std::string& expected, const std::string& text) {
+    throw UsageError(name + ": expected " + expected + ", found '" + text + "'");
+}
+
+}   // namespace
+
 int Arguments::integer(const std::string& name, int otherwise, int least, int most) const {
     if (!has(name)) return otherwise;
     const std::string text = get(name), range = "an integer from " + std::to_string(least) + " to " + std::to_string(most);
-    const Scanner scanner(text, name);
-    const int i = scanner.to_integer(text, range.c_str());
-    if (i < least || i > most) scanner.fail(range, text);
-    return i;
+    try {
+        const int i = Scanner(text, name).to_integer(text, range.c_str());
+        if (i >= least && i <= most) return i;
+    } catch (const InputError&) {}
+    refuse_number(name, range, text);
 }
 
 double Arguments::number(const std::string& name, double otherwise, double least, double most) const {
@@ -27,10 +36,11 @@ double Arguments::number(const std::string& name, double otherwise, double least
     range += " to ";
     append(range, most);
     const std::string text = get(name);
-    const Scanner scanner(text, name);
-    const double x = scanner.to_number(text, range.c_str());
-    if (x < least || x > most) scanner.fail(range, text);
-    return x;
+    try {
+        const double x = Scanner(text, name).to_number(text, range.c_str());
+        if (x >= least && x <= most) return x;
+    } catch (const InputError&) {}
+    refuse_number(name, range, text);
 }
 
 Arguments parse_arguments(const Command& command, const std::vector<std::string>& words) {

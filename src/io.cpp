@@ -381,11 +381,13 @@ std::string medit_text(const MeshData& data) {
     return out + "End\n";
 }
 
-void write_mesh(const std::string& path, const MeshData& data) {
-    if (is_extension(path, ".obj")) return write_file(path, obj_text(data));
-    if (is_extension(path, ".mesh")) return write_file(path, medit_text(data));
+std::string mesh_text(const std::string& path, const MeshData& data) {
+    if (is_extension(path, ".obj")) return obj_text(data);
+    if (is_extension(path, ".mesh")) return medit_text(data);
     throw InputError(path, 0, "expected a file name in .obj or .mesh");
 }
+
+void write_mesh(const std::string& path, const MeshData& data) { write_file(path, mesh_text(path, data)); }
 
 MeshData mesh_data(const TriMesh& mesh) {
     MeshData data;

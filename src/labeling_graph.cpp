@@ -307,9 +307,11 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
     const auto require = [](bool holds, const char* what, std::size_t i) {
         if (!holds) throw std::logic_error(std::string("LabelingGraph: ") + what + " at " + std::to_string(i));
     };
-    Index facets = 0, invalid = 0, last = kNone;
+    Index facets = 0, invalid = 0, last = kNone, listed = 0;
     for (std::size_t c = 0; c < g.charts.size(); c++) {
         facets += g.charts[c].facets;
+        require(g.charts[c].boundaries.first == listed, "list of a chart's boundaries", c);
+        listed = g.charts[c].boundaries.last;
         invalid += !g.charts[c].valid;
         require(g.charts[c].smallest_facet > last, "order of charts", c);
         last = g.charts[c].smallest_facet;
@@ -317,9 +319,13 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
         for (Index i = g.charts[c].boundaries.first; i < g.charts[c].boundaries.last; i++) {
             const Boundary& b = g.boundaries[g.chart_boundaries[i]];
             require(b.left == static_cast<Index>(c) || b.right == static_cast<Index>(c), "boundary of a chart", c);
+            require(i == g.charts[c].boundaries.first || g.chart_boundaries[i - 1] < g.chart_boundaries[i], "order of boundaries",
+                    c);
         }
     }
     require(facets == mesh.facets(), "number of facets", g.charts.size());
+    for (Index f = 0; f < mesh.facets(); f++) require(f >= g.charts[g.chart[f]].smallest_facet, "smallest facet", f);
+    require(listed == static_cast<Index>(g.chart_boundaries.size()), "lists of boundaries", listed);
     require(g.chart_boundaries.size() == 2 * g.boundaries.size(), "two charts per boundary", g.boundaries.size());
     Index borders = 0;
     for (Index h = 0; h < mesh.halfedges(); h++) {
@@ -336,16 +342,20 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
         const auto begin = g.halfedges.begin() + boundary.halfedges.first, end = g.halfedges.begin() + boundary.halfedges.last;
         require(begin != end, "empty boundary", b);
         Index smallest = *begin;
-        bool runs = true;
+        bool runs = true, on_features = true;
+        const Label l = labels[facet(*begin)], r = labels[mesh.right(*begin)];
+        require(boundary.axis == (orthogonal(l, r) ? 3 - axis(l) - axis(r) : kNone), "axis of a boundary", b);
         for (auto h = begin; h != end; ++h) {
             require(g.boundary[*h] == static_cast<Index>(b) && g.boundary[mesh.opposite[*h]] == static_cast<Index>(b),
                     "boundary of its half-edges", b);
             require(g.chart[facet(*h)] == boundary.left && g.chart[mesh.right(*h)] == boundary.right, "sides of a boundary", b);
+            on_features = on_features && mesh.feature[*h];
             require(h + 1 == end || mesh.to(*h) == mesh.from(h[1]), "chain", b);
             if (mesh.edge(*h) < smallest) smallest = mesh.edge(*h), runs = *h == smallest;
         }
         if (smallest == *begin) runs = mesh.edge(*begin) == *begin;
         require(runs, "direction of a boundary", b);
+        require(boundary.on_features == on_features, "feature edges of a boundary", b);
         require(smallest > last, "order of boundaries", b);
         last = smallest;
         require(boundary.start == kNone
@@ -359,8 +369,10 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
         require(g.corners[c].vertex > last, "order of corners", c);
         last = g.corners[c].vertex;
         require(g.corner[last] == static_cast<Index>(c) && g.corners[c].rings.size() > 0, "corner of its vertex", c);
+        Index valence = 0;
         for (Index r = g.corners[c].rings.first; r < g.corners[c].rings.last; r++) {
             const Range ring = g.rings[r].halfedges;
+            valence += ring.size();
             require(g.rings[r].corner == static_cast<Index>(c) && ring.size() >= 3, "ring of a corner", c);
             for (Index i = ring.first; i < ring.last; i++) {
                 const Index h = g.ring_halfedges[i], following = g.ring_halfedges[i + 1 == ring.last ? ring.first : i + 1];
@@ -368,7 +380,10 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
                         "ring order", c);
             }
         }
+        require(g.corners[c].valence == valence, "valence of a corner", c);
     }
+    const auto no_corner = std::count(g.corner.begin(), g.corner.end(), kNone);
+    require(no_corner + g.corners.size() == g.corner.size(), "vertices that are no corners", g.corners.size());
     require(invalid == g.invalid(), "number of invalid elements", invalid);
 }
 

@@ -36,7 +36,7 @@ public:
         if (talk_) print(line);
     }
     void detail(const std::string& line) const {
-        if (verbose_) print(line);
+        if (verbose_ && !quiet_) print(line);
     }
     void warn(const std::string& line) const {
         if (!quiet_) print(line);
@@ -106,23 +106,21 @@ Judged judge(const TriMesh& mesh, const Labeling& labels) {
 
 ExitStatus status_of(const Statistics& s) { return s.result_class() == Class::invalid ? kNotValid : kDone; }
 
-// The paper's routines, with a line of progress per step that is kept, and the trace if one is wanted.
-Labeling run_full(const TriMesh& mesh, Labeling start, Labeling locks, const Arguments& arguments, const Console& console) {
+// The paper's routines, with a line of progress per step that is kept; `trace` gets a line per step.
+Labeling run_full(const TriMesh& mesh, Labeling start, Labeling locks, const Arguments& arguments, const Console& console,
+                  std::string& trace) {
     const std::string routine = arguments.get("--routine", "both");
-    std::string trace;
     RoutineOptions options;
     options.validity = routine != "monotonicity";
     options.monotonicity = routine != "validity";
     options.locks = std::move(locks);
     options.trace = [&](const Step& step) {
-        if (arguments.has("--trace")) trace += trace_line(step);
+        trace += trace_line(step);
         if (step.kept && !step.in_sequence)
             console.detail(step.operation + ": " + std::to_string(step.after.invalid) + " invalid, " +
                            std::to_string(step.after.turning_points) + " turning-points left");
     };
-    Labeling labels = run_routines(mesh, std::move(start), options).labels;
-    if (arguments.has("--trace")) write_file(arguments.get("--trace"), trace);
-    return labels;
+    return run_routines(mesh, std::move(start), options).labels;
 }
 
 int run_label(const Arguments& arguments) {
@@ -155,11 +153,14 @@ int run_label(const Arguments& arguments) {
     for (std::size_t f = 0; f < locks.size(); f++)
         if (locks[f] != kNoLabel) labels[f] = locks[f];
     console.detail("initial labeling after " + watch.seconds());
-    if (method == "full") labels = run_full(mesh, std::move(labels), std::move(locks), arguments, console);
+    std::string trace;
+    if (method == "full") labels = run_full(mesh, std::move(labels), std::move(locks), arguments, console, trace);
     const Judged result = judge(mesh, labels);
-    if (arguments.has("--stats"))
-        write_file(arguments.get("--stats"), statistics_json(result.statistics, explain(mesh, result.graph)));
-    write_file(output, labels_text(labels));
+    const std::string text = labels_text(labels), json = statistics_json(result.statistics, explain(mesh, result.graph));
+    std::vector<Output> outputs = {{output, text}};
+    if (arguments.has("--stats")) outputs.push_back({arguments.get("--stats"), json});
+    if (arguments.has("--trace")) outputs.push_back({arguments.get("--trace"), trace});
+    write_files(outputs);
     console.say(summary(result.statistics));
     console.say((output == "-" ? "labels written" : "labels written to " + output) + " after " + watch.seconds());
     const std::string advice = hint(mesh);
@@ -216,8 +217,10 @@ int run_surface(const Arguments& arguments) {
     for (const std::string& note : notes(mesh)) console.warn(path + ": " + note);
     written.points = mesh.points;
     written.triangles = mesh.origin;
-    if (arguments.has("--map")) write_file(arguments.get("--map"), surface_map_text(extracted.map));
-    write_mesh(arguments.get("-o"), written);
+    const std::string surface = mesh_text(arguments.get("-o"), written), map = surface_map_text(extracted.map);
+    std::vector<Output> outputs = {{arguments.get("-o"), surface}};
+    if (arguments.has("--map")) outputs.push_back({arguments.get("--map"), map});
+    write_files(outputs);
     console.say(path + ": " + std::to_string(extracted.map.tets) + " tetrahedra, " + std::to_string(mesh.facets()) +
                 " triangles on the surface");
     return kDone;

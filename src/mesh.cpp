@@ -148,6 +148,7 @@ void measure(TriMesh& mesh) {
 
 // Keeps the sharp ones among the named edges, or finds all sharp edges. A facet without area has no angle to anything.
 void keep_sharp_features(TriMesh& mesh, const FeatureOptions& options) {
+    if (options.detect) mesh.features_given = mesh.features_off = 0;   // the file's list is not asked
     for (Index h = 0; h < mesh.halfedges(); h++) {
         const Index o = mesh.opposite[h];
         if (h > o) continue;

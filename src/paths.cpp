@@ -41,15 +41,6 @@ Index most_aligned(const TriMesh& mesh, const State& state, Index around, Index 
     return best;
 }
 
-bool on_border(const TriMesh& mesh, const State& state, Index outgoing) {
-    Index h = outgoing;
-    do {
-        if (state.graph.is_border(h)) return true;
-        h = mesh.cw(h);
-    } while (h != outgoing);
-    return false;
-}
-
 // Some half-edge that leaves the vertex from a facet of the chart, or kNone.
 Index leaving(const TriMesh& mesh, const State& state, Index vertex, Index chart) {
     for (Index h = 0; h < mesh.halfedges(); h++)
@@ -58,6 +49,15 @@ Index leaving(const TriMesh& mesh, const State& state, Index vertex, Index chart
 }
 
 }   // namespace
+
+bool on_border(const TriMesh& mesh, const State& state, Index outgoing) {
+    Index h = outgoing;
+    do {
+        if (state.graph.is_border(h)) return true;
+        h = mesh.cw(h);
+    } while (h != outgoing);
+    return false;
+}
 
 Halfedges reversed(const TriMesh& mesh, const Halfedges& path) {
     Halfedges back(path.rbegin(), path.rend());
@@ -159,6 +159,35 @@ std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vect
         }
     }
     return facets;
+}
+
+std::vector<Index> strip_beside(const TriMesh& mesh, const State& state, const Halfedges& path, int width) {
+    const Index chart = state.graph.chart[mesh.left(path[0])];
+    std::vector<Index> seeds;
+    for (const Index h : path)
+        if (state.graph.chart[mesh.left(h)] == chart) seeds.push_back(mesh.left(h));
+    const std::vector<Index> near = band(mesh, state, vertices_of(mesh, path), chart, width);
+    std::vector<char> in(mesh.facets(), 0);
+    for (const Index f : near) in[f] = 1;
+    // From the left facets on, within the band, not across the path.
+    std::vector<char> wall(mesh.halfedges(), 0);
+    for (const Index h : path) wall[h] = wall[mesh.opposite[h]] = 1;
+    std::vector<Index> strip;
+    for (const Index f : seeds)
+        if (in[f]) {
+            in[f] = 0;
+            strip.push_back(f);
+        }
+    std::vector<char> right(mesh.facets(), 0);
+    for (const Index h : path) right[mesh.right(h)] = 1;
+    for (std::size_t i = 0; i < strip.size(); i++)
+        for (Index h = 3 * strip[i]; h < 3 * strip[i] + 3; h++) {
+            const Index f = mesh.right(h);
+            if (!in[f] || wall[h] || right[f]) continue;
+            in[f] = 0;
+            strip.push_back(f);
+        }
+    return strip;
 }
 
 std::vector<Index> vertices_of(const TriMesh& mesh, const Halfedges& path) {

@@ -8,7 +8,6 @@ namespace polylab {
 namespace {
 
 constexpr Index kShortestRun = 3;   // edges; shorter ones have nothing to straighten
-constexpr int kSmoothingRounds = 20;
 
 Index edge_number(const LabelingGraph& graph, const TurningPoint& t, Index offset) {
     const Range r = graph.boundaries[t.boundary].halfedges;
@@ -17,36 +16,6 @@ Index edge_number(const LabelingGraph& graph, const TurningPoint& t, Index offse
 }
 
 Index outgoing(const State& state, const TurningPoint& t) { return edge_number(state.graph, t, 0); }
-
-// The facets of one side of a path, `width` rings deep inside its chart, without those that touch the other side.
-std::vector<Index> strip_beside(const TriMesh& mesh, const State& state, const Halfedges& path, int width) {
-    const Index chart = state.graph.chart[mesh.left(path[0])];
-    std::vector<Index> seeds;
-    for (const Index h : path)
-        if (state.graph.chart[mesh.left(h)] == chart) seeds.push_back(mesh.left(h));
-    const std::vector<Index> near = band(mesh, state, vertices_of(mesh, path), chart, width);
-    std::vector<char> in(mesh.facets(), 0);
-    for (const Index f : near) in[f] = 1;
-    // From the left facets on, within the band, not across the path.
-    std::vector<char> wall(mesh.halfedges(), 0);
-    for (const Index h : path) wall[h] = wall[mesh.opposite[h]] = 1;
-    std::vector<Index> strip;
-    for (const Index f : seeds)
-        if (in[f]) {
-            in[f] = 0;
-            strip.push_back(f);
-        }
-    std::vector<char> right(mesh.facets(), 0);
-    for (const Index h : path) right[mesh.right(h)] = 1;
-    for (std::size_t i = 0; i < strip.size(); i++)
-        for (Index h = 3 * strip[i]; h < 3 * strip[i] + 3; h++) {
-            const Index f = mesh.right(h);
-            if (!in[f] || wall[h] || right[f]) continue;
-            in[f] = 0;
-            strip.push_back(f);
-        }
-    return strip;
-}
 
 void propose_strips(Proposals& proposals, const TriMesh& mesh, const State& state, const Halfedges& path,
                     std::initializer_list<Label> unwanted) {
@@ -195,7 +164,7 @@ Proposals join_turning_points(const TriMesh& mesh, const State& state, const Tur
     const Label left = state.graph.charts[boundary.left].label, right = state.graph.charts[boundary.right].label;
     for (const Index lost : lost_features_at(mesh, state, outgoing(state, t))) {
         const Halfedges path = lost_feature_path(mesh, state, lost);
-        if (!state.graph.is_border(state.graph.next_border_ccw(mesh, outgoing(state, t)))) continue;
+        if (!on_border(mesh, state, mesh.opposite[path.back()])) continue;
         propose_strips(proposals, mesh, state, path, {left, right});
     }
     return proposals;
@@ -257,9 +226,9 @@ Proposals smooth_boundaries(const TriMesh& mesh, const State& state) {
         }
         return labels[f];
     };
-    // Facets next to a border, in rounds, so that a row of teeth goes down together.
-    for (int round = 0; round < kSmoothingRounds; round++) {
-        bool changed = false;
+    // In rounds, so that a row of teeth goes down together. Each change shortens the borders by an edge, so it ends.
+    for (bool changed = true; changed;) {
+        changed = false;
         for (Index f = 0; f < mesh.facets(); f++) {
             const Label l = majority(f);
             bool keeps_features = true;
@@ -269,7 +238,6 @@ Proposals smooth_boundaries(const TriMesh& mesh, const State& state) {
             labels[f] = l;
             changed = true;
         }
-        if (!changed) break;
     }
     Patch patch;
     for (Index f = 0; f < mesh.facets(); f++)

@@ -83,7 +83,7 @@ private:
     // Algorithm 2.
     void fix_monotonicity(const Pass& pass) {
         set_limit(pass.loss_limit);
-        for (Score before; state_.turning.vertices > 0 && !(state_.score == before);) {
+        for (Score before; !state_.turning.points.empty() && !(state_.score == before);) {
             before = state_.score;
             for_each_turning_point(kJoin);
             for_each_turning_point(kPull);

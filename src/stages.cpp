@@ -60,7 +60,7 @@ std::string turning_points_stage(const TriMesh& mesh, const LabelingGraph& graph
              {closest_corner(mesh, graph, t)});
     }
     const TurningPoints published = published_turning_points(mesh, graph);
-    line(out, "own vertices", {turning.vertices});
+    line(out, "own count", {static_cast<Index>(turning.points.size())});
     line(out, "published vertices", {published.vertices});
     line(out, "published non-monotone boundaries", {published.non_monotone_boundaries});
     return out;

@@ -7,6 +7,7 @@ namespace polylab {
 namespace {
 
 constexpr Index kLeastCharts = 6;   // of a component: a polycube faces all six directions
+constexpr Index kMissing = 3;       // a missing chart counts like an invalid chart, boundary and corner
 
 }   // namespace
 
@@ -42,8 +43,8 @@ void Judge::apply(const State& state, const Patch& patch, State& result) const {
 void Judge::derive(State& state) const {
     build_graph(mesh_, state.labels, state.graph);
     state.turning = find_turning_points(mesh_, state.graph);
-    const Index missing = kLeastCharts * mesh_.components - static_cast<Index>(state.graph.charts.size());
-    state.score = {state.graph.invalid() + std::max(missing, 0), state.turning.vertices, 0};
+    const Index missing = std::max(0, kLeastCharts * mesh_.components - static_cast<Index>(state.graph.charts.size()));
+    state.score = {state.graph.invalid() + kMissing * missing, static_cast<Index>(state.turning.points.size()), 0};
     for (Index f = 0; f < mesh_.facets(); f++) state.score.loss += loss_[f][state.labels[f]];
     for (const Index h : features_)
         if (!state.graph.is_border(h)) state.score.loss += loss_per_feature_;

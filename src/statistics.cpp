@@ -46,11 +46,11 @@ Statistics statistics(const TriMesh& mesh, const Labeling& labels, const Labelin
     const TurningPoints published = published_turning_points(mesh, graph);
     s.turning_points = published.vertices;
     s.non_monotone_boundaries = published.non_monotone_boundaries;
-    s.own_turning_points = find_turning_points(mesh, graph).vertices;
+    s.own_turning_points = static_cast<Index>(find_turning_points(mesh, graph).points.size());
     measure_fidelity(mesh, labels, s);
     for (Index h = 0; h < mesh.halfedges(); h++)
         if (mesh.feature[h] && h < mesh.opposite[h]) (graph.is_border(h) ? s.features_preserved : s.features_lost)++;
-    s.features_ignored = std::max(0, mesh.features_given - mesh.features_kept);   // detected edges are none of the file's
+    s.features_ignored = std::max(0, mesh.features_given - mesh.features_kept);   // none where they were detected
     return s;
 }
 

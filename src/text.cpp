@@ -93,43 +93,73 @@ std::string read_file(const std::string& path) {
     return content;
 }
 
-void write_file(const std::string& path, std::string_view content) {
-    const auto refuse = [&](const std::string& why) { throw InputError(path, 0, "can't be written: " + why); };
-    if (path == "-") {
-        if (!write_all(stdout, content)) refuse(reason());
-        return;
-    }
+namespace {
+
+[[noreturn]] void refuse_output(const std::string& path, const std::string& why) {
+    throw InputError(path, 0, "can't be written: " + why);
+}
+
+// An output on its way: in a new file beside its place, or nothing of it yet where the place is no regular file.
+struct Part {
+    fs::path target, part;   // `part` is empty for pipes, devices and standard output
+};
+
+Part write_part(const Output& output) {
+    Part result;
+    if (output.path == "-") return result;
     std::error_code error;
-    const fs::path target = link_target(path);
-    if (fs::is_symlink(target, error)) refuse("too many symbolic links");
-    const fs::file_status status = fs::status(target, error);
-    if (fs::is_directory(status)) refuse("it is a directory");
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
-        File file(std::fopen(path.c_str(), "wb"));
-        if (!file.handle || !write_all(file.handle, content) || !file.close()) refuse(reason());
-        return;
-    }
+    result.target = link_target(output.path);
+    if (fs::is_symlink(result.target, error)) refuse_output(output.path, "too many symbolic links");
+    const fs::file_status status = fs::status(result.target, error);
+    if (fs::is_directory(status)) refuse_output(output.path, "it is a directory");
+    if (fs::exists(status) && !fs::is_regular_file(status)) return result;
     // A file that its owner made read-only stays as it is, although renaming over it would be allowed.
     if (fs::exists(status)) {
-        const File file(std::fopen(target.c_str(), "r+b"));
-        if (!file.handle) refuse(reason());
+        const File file(std::fopen(result.target.c_str(), "r+b"));
+        if (!file.handle) refuse_output(output.path, reason());
     }
-    fs::path part;
-    File file(open_beside(target, part));
-    if (!file.handle) refuse(reason());
-    if (!write_all(file.handle, content) || !file.close()) {
+    File file(open_beside(result.target, result.part));
+    if (!file.handle) refuse_output(output.path, reason());
+    if (!write_all(file.handle, output.content) || !file.close()) {
         const std::string why = reason();
-        fs::remove(part, error);
-        refuse(why);
+        fs::remove(result.part, error);
+        refuse_output(output.path, why);
     }
-    if (fs::exists(status)) fs::permissions(part, status.permissions(), error);
-    fs::rename(part, target, error);
-    if (error) {
-        std::error_code ignored;
-        fs::remove(part, ignored);
-        refuse(error.message());
+    if (fs::exists(status)) fs::permissions(result.part, status.permissions(), error);
+    return result;
+}
+
+void write_through(const Output& output) {
+    if (output.path == "-") {
+        if (!write_all(stdout, output.content)) refuse_output(output.path, reason());
+        return;
+    }
+    File file(std::fopen(output.path.c_str(), "wb"));
+    if (!file.handle || !write_all(file.handle, output.content) || !file.close()) refuse_output(output.path, reason());
+}
+
+}   // namespace
+
+void write_files(const std::vector<Output>& outputs) {
+    std::vector<Part> parts;
+    std::error_code error;
+    try {
+        for (const Output& output : outputs) parts.push_back(write_part(output));
+        for (std::size_t i = 0; i < outputs.size(); i++)
+            if (parts[i].part.empty()) write_through(outputs[i]);
+        for (std::size_t i = 0; i < outputs.size(); i++) {
+            if (parts[i].part.empty()) continue;
+            fs::rename(parts[i].part, parts[i].target, error);
+            if (error) refuse_output(outputs[i].path, error.message());
+        }
+    } catch (const InputError&) {
+        for (const Part& part : parts)
+            if (!part.part.empty()) fs::remove(part.part, error);
+        throw;
     }
 }
+
+void write_file(const std::string& path, std::string_view content) { write_files({{path, content}}); }
 
 void append(std::string& out, double x) {
     char buffer[32];

@@ -257,14 +257,8 @@ Proposals high_valence_corner(const TriMesh& mesh, const State& state, Index cor
             const Halfedges path = lost_feature_path(mesh, state, lost);
             const Label old = chart_at(state, mesh.left(lost)).label;
             for (const Halfedges& side : {path, reversed(mesh, path)}) {
-                const Index chart = state.graph.chart[mesh.left(side[0])];
-                std::vector<Index> seeds;
-                for (const Index h : side) seeds.push_back(mesh.left(h));
-                std::vector<Index> strip = band(mesh, state, vertices_of(mesh, side), chart, 1);
-                std::vector<char> other(mesh.facets(), 0);
-                for (const Index h : side) other[mesh.right(h)] = 1;
-                strip.erase(std::remove_if(strip.begin(), strip.end(), [&](Index f) { return other[f]; }), strip.end());
-                for (const Label l : labels_by_fit(mean_normal(mesh, seeds)))
+                const std::vector<Index> strip = strip_beside(mesh, state, side, 1);
+                for (const Label l : labels_by_fit(mean_normal(mesh, strip)))
                     if (orthogonal(l, old)) propose(proposals, strip, l);
             }
         }

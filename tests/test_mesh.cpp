@@ -426,7 +426,7 @@ TEST_CASE("mesh: detection finds all sharp edges, whatever the file names") {
     const TriMesh mesh = build_mesh(data, {true, kFeatureCos});
     validate(mesh);
     CHECK(mesh.features_kept == 24);
-    CHECK(mesh.features_given == 1);
+    CHECK(mesh.features_given == 0);   // the list is not asked
     CHECK_FALSE(mesh.feature[flat]);
 }
 

@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace polylab;
@@ -85,7 +86,7 @@ TEST_CASE("state: the score of a cube with a patch, by hand") {
     check_score(state_of(mesh, square(3, 1, 1, kNegZ), false).score, 2, 0, 2000000);
 }
 
-TEST_CASE("state: turning-points are counted by vertex") {
+TEST_CASE("state: a bay has a turning-point") {
     // A bay of +Y in the upper face, two squares deep, open to +X: it has two neighbours only, and its boundary with +Z goes
     // along -X, across and along +X. Going back costs 2 x 46, one turn next to the edge across 60.
     const TriMesh mesh = build_mesh(cube(5));
@@ -116,10 +117,18 @@ TEST_CASE("state: a facet without area loses half") {
 
 TEST_CASE("state: lost feature edges weigh half of what all fidelity weighs") {
     // 12 facets, 12 feature edges: each is worth half a facet. One label everywhere: 8 facets lose half of their fidelity, 2
-    // all of it; all edges are lost; the only chart has no boundary.
+    // all of it; all edges are lost.
     const TriMesh mesh = build_mesh(shapes::creased(cube(1)));
-    check_score(Judge(mesh).state(Labeling(12, kZ)).score, 1, 0, 8 * 500000 + 2 * 1000000 + 12 * 500000);
+    CHECK(Judge(mesh).state(Labeling(12, kZ)).score.loss == 8 * 500000 + 2 * 1000000 + 12 * 500000);
     CHECK(Judge(build_mesh(cube(1))).state(Labeling(12, kZ)).score.loss == 6000000);
+}
+
+TEST_CASE("state: each chart that a component lacks of six counts three times") {
+    // One chart, without any boundary: it is invalid and five are missing. Of two cubes both lack five.
+    CHECK(Judge(build_mesh(cube(1))).state(Labeling(12, kZ)).score.invalid == 1 + 3 * 5);
+    CHECK(Judge(build_mesh(shapes::two_cubes_at_a_vertex())).state(Labeling(24, kZ)).score.invalid == 2 + 3 * 10);
+    // More than six make up for nothing.
+    CHECK(state_of(build_mesh(cube(3)), square(3, 1, 1, kX)).score.invalid == 1);
 }
 
 TEST_CASE("state: a face that joins its neighbour loses the edges between them") {
@@ -127,8 +136,8 @@ TEST_CASE("state: a face that joins its neighbour loses the edges between them")
     // +Y and -Y keep three neighbours, +X and -X meet at a convex edge; at its ends, next to opposite labels, axes count for
     // nothing.
     const TriMesh mesh = build_mesh(shapes::creased(cube(3)));
-    check_score(state_of(mesh, upper_face(3, kX)).score, 3, 0, 18 * 500000 + 3 * 1500000);
-    check_score(state_of(build_mesh(cube(3)), upper_face(3, kX)).score, 3, 0, 18 * 500000);
+    check_score(state_of(mesh, upper_face(3, kX)).score, 3 + 3, 0, 18 * 500000 + 3 * 1500000);
+    check_score(state_of(build_mesh(cube(3)), upper_face(3, kX)).score, 3 + 3, 0, 18 * 500000);
 }
 
 TEST_CASE("state: the loss is what the statistics say") {
@@ -142,7 +151,7 @@ TEST_CASE("state: the loss is what the statistics say") {
         const double lost = double(s.features_lost) / (s.features_lost + s.features_preserved);
         const double expected = ((1 - s.fidelity_avg) + 0.5 * lost) * 1e6 * s.facets;
         CHECK(std::abs(static_cast<double>(state.score.loss) - expected) <= s.facets + mesh.features_kept);
-        CHECK(state.score.invalid == s.invalid());
+        CHECK(state.score.invalid == s.invalid() + 3 * std::max(0, 6 - s.charts));
         CHECK(state.score.turning_points == s.own_turning_points);
     }
 }

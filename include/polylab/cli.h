@@ -21,7 +21,7 @@ struct Arguments {
 
     bool has(const std::string& name) const { return options.count(name) > 0; }
     std::string get(const std::string& name, const std::string& otherwise = "") const;
-    // Numbers within a range; InputError `--name: expected …, found …` otherwise.
+    // Numbers within a range; UsageError `--name: expected …, found …` otherwise.
     int integer(const std::string& name, int otherwise, int least, int most) const;
     double number(const std::string& name, double otherwise, double least, double most) const;
 };

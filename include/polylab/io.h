@@ -26,7 +26,8 @@ MeshData read_obj(std::string_view text, const std::string& name);
 MeshData read_medit(std::string_view text, const std::string& name);
 MeshData read_stl(std::string_view bytes, const std::string& name);
 
-// Writes by extension: .obj (v, f, l) or .mesh. Other extensions are an error.
+// The text of a mesh file, by the extension of its name: .obj (v, f, l) or .mesh. Other extensions are an error.
+std::string mesh_text(const std::string& path, const MeshData& data);
 void write_mesh(const std::string& path, const MeshData& data);
 std::string obj_text(const MeshData& data);
 // Keyword and count on lines of their own, as strictly line-based readers want.

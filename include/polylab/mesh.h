@@ -62,7 +62,7 @@ struct TriMesh {
     Index turned_facets = 0;       // facets whose direction differs from the file's
     Index isolated_vertices = 0;   // vertices without facet, kept in the numbering
     Index flat_facets = 0;         // facets without area
-    Index features_given = 0;      // feature edges of the file, as listed
+    Index features_given = 0;      // feature edges of the file, as listed; 0 where they are detected
     Index features_kept = 0;       // distinct edges with feature[h] set
     Index features_off = 0;        // those of the file, as listed, that are not edges of the surface
 

@@ -35,6 +35,13 @@ std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index
 // Facets of a chart (kNone: of any) that touch the given vertices, then those that touch these, `rings` times.
 std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart, int rings);
 
+// The facets at the left of a path through a chart, `width` rings deep inside that chart and connected along the path,
+// without those that lie at its right.
+std::vector<Index> strip_beside(const TriMesh& mesh, const State& state, const Halfedges& path, int width);
+
+// Whether some boundary passes the origin of the half-edge, within its fan.
+bool on_border(const TriMesh& mesh, const State& state, Index outgoing);
+
 std::vector<Index> vertices_of(const TriMesh& mesh, const Halfedges& path);   // of all its edges, once each along the path
 
 // The half-edges around a chart, the chart at their left, one list per contour: the contour of its boundary of smallest

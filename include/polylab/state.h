@@ -22,8 +22,8 @@ using Patch = std::vector<Relabel>;
 
 // Compared from left to right, less is better; integers only.
 struct Score {
-    Index invalid = 0;          // charts, boundaries and corners, and each chart that a component lacks of six
-    Index turning_points = 0;   // vertices, the count that depends on no direction
+    Index invalid = 0;          // charts, boundaries and corners; three for each chart that a component lacks of six
+    Index turning_points = 0;   // the count that depends on no direction
     std::int64_t loss = 0;      // fidelity and feature edges, see Judge
 
     bool operator<(const Score& b) const {

@@ -20,7 +20,7 @@ struct Statistics {
     Index boundaries = 0, invalid_boundaries = 0, non_monotone_boundaries = 0;   // the last as published
     Index corners = 0, invalid_corners = 0;
     Index turning_points = 0;       // vertices, as published
-    Index own_turning_points = 0;   // vertices, independent of directions: drives the algorithms
+    Index own_turning_points = 0;   // independent of numbers and directions: drives the algorithms
     double fidelity_min = 0, fidelity_avg = 0, fidelity_max = 0, fidelity_sd = 0;   // over facets, as published
     double fidelity_area_avg = 0;                                                   // weighted by area
     Index features_preserved = 0;   // kept feature edges with different labels at their sides

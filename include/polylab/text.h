@@ -5,14 +5,22 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace polylab {
 
 // The whole file (or standard input for "-"). Throws InputError where it can't be read.
 std::string read_file(const std::string& path);
 
-// Writes the whole content, or nothing: into a new file beside `path`, then renamed over it. Symbolic links are followed;
-// what is not a regular file (pipe, device) is written through; "-" is standard output. Throws InputError.
+struct Output {
+    std::string path;
+    std::string_view content;
+};
+
+// Writes all of the outputs, or none: each into a new file beside its path, then, when all are complete, renamed over it.
+// Symbolic links are followed; what is not a regular file (pipe, device) is written through; "-" is standard output.
+// Throws InputError.
+void write_files(const std::vector<Output>& outputs);
 void write_file(const std::string& path, std::string_view content);
 
 // Appends a number; of a double, the shortest text that reads back as the same double.

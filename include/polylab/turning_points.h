@@ -46,7 +46,7 @@ struct TurningPoint {
 
 struct TurningPoints {
     std::vector<TurningPoint> points;   // by boundary, then position
-    Index vertices = 0;                 // distinct vertices among them: the count of the statistics
+    Index vertices = 0;                 // distinct ones among them: what the published statistics count
     Index non_monotone_boundaries = 0;
 };
 
