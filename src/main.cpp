@@ -226,9 +226,11 @@ int run_surface(const Arguments& arguments) {
     return kDone;
 }
 
-int run_stage(const Arguments& arguments) {
-    const TriMesh mesh = read_surface(arguments.operands[1]);
-    write_file(arguments.get("-o", "-"), stage_text(mesh, arguments.operands[0]));
+int run_stages(const Arguments& arguments) {
+    const std::vector<Stage> all = stages(read_surface(arguments.operands[0]));
+    std::vector<Output> outputs;
+    for (const Stage& stage : all) outputs.push_back({arguments.operands[1] + "/" + stage.name + ".txt", stage.text});
+    write_files(outputs);
     return kDone;
 }
 
@@ -294,13 +296,12 @@ const std::vector<Command>& commands() {
          "Carries surface labels to the facets of the tetrahedra: four labels per tetrahedron, -1 inside.",
          {kOutput},
          run_volume_labels},
-        {"stage",
-         {"NAME", "PART"},
-         "Prints one stage of the method as text, to compare a port with.\n\n"
-         "NAME is mesh, costs, naive, tilted, graphcut, graph, turning-points, trace, labels or statistics; all options are at\n"
-         "their defaults. golden/README.md explains the texts.",
-         {kOutput},
-         run_stage},
+        {"stages",
+         {"PART", "DIR"},
+         "Writes what each step of the method gives into the files 01-mesh.txt … 10-statistics.txt of a folder, to compare a\n"
+         "port with. golden/README.md explains them. All options are at their defaults.",
+         {},
+         run_stages},
     };
     return table;
 }

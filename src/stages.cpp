@@ -84,31 +84,24 @@ std::string statistics_stage(const TriMesh& mesh, const Labeling& labels) {
 
 }   // namespace
 
-const std::vector<std::string>& stage_names() {
-    static const std::vector<std::string> names = {"mesh",  "costs",          "naive", "tilted", "graphcut",
-                                                   "graph", "turning-points", "trace", "labels", "statistics"};
-    return names;
-}
-
-std::string stage_text(const TriMesh& mesh, const std::string& stage) {
-    if (stage == "mesh") return mesh_stage(mesh);
-    if (stage == "costs") return costs_stage(mesh);
-    if (stage == "naive") return labels_text(naive_labeling(mesh));
-    if (stage == "tilted") return tilted_stage(mesh);
+std::vector<Stage> stages(const TriMesh& mesh) {
     const Labeling graphcut = graphcut_labeling(mesh);
-    if (stage == "graphcut") return "energy " + std::to_string(labeling_energy(mesh)(graphcut)) + "\n" + labels_text(graphcut);
-    if (stage == "graph") return graph_text(build_graph(mesh, graphcut));
-    if (stage == "turning-points") return turning_points_stage(mesh, build_graph(mesh, graphcut));
+    const LabelingGraph graph = build_graph(mesh, graphcut);
     std::string trace;
     RoutineOptions options;
     options.trace = [&](const Step& step) { trace += trace_line(step); };
     const Labeling labels = run_routines(mesh, graphcut, options).labels;
-    if (stage == "trace") return trace;
-    if (stage == "labels") return labels_text(labels);
-    if (stage == "statistics") return statistics_stage(mesh, labels);
-    throw InputError(
-        "stage: expected one of mesh costs naive tilted graphcut graph turning-points trace labels statistics, found '" + stage +
-        "'");
+    const std::string energy = "energy " + std::to_string(labeling_energy(mesh)(graphcut)) + "\n";
+    return {{"01-mesh", mesh_stage(mesh)},
+            {"02-costs", costs_stage(mesh)},
+            {"03-naive", labels_text(naive_labeling(mesh))},
+            {"04-tilted", tilted_stage(mesh)},
+            {"05-graphcut", energy + labels_text(graphcut)},
+            {"06-graph", graph_text(graph)},
+            {"07-turning-points", turning_points_stage(mesh, graph)},
+            {"08-trace", trace},
+            {"09-labels", labels_text(labels)},
+            {"10-statistics", statistics_stage(mesh, labels)}};
 }
 
 }   // namespace polylab

@@ -19,7 +19,8 @@ struct Run {
 
 Run compare(const std::string& golden = "") {
     const std::string log = std::string(POLYLAB_BUILD_DIR) + "/golden.log";
-    const std::string command = "'" POLYLAB_SOURCE_DIR "/tools/golden.sh' compare '" POLYLAB_PROGRAM "' " + golden + " >'" + log + "' 2>&1";
+    const std::string command =
+        "'" POLYLAB_SOURCE_DIR "/tools/golden.sh' compare '" POLYLAB_PROGRAM "' " + golden + " >'" + log + "' 2>&1";
     const int status = std::system(command.c_str());
     std::ostringstream text;
     text << std::ifstream(log).rdbuf();
@@ -35,7 +36,7 @@ fs::path copy_of(const std::string& name) {
     return copy;
 }
 
-}  // namespace
+}   // namespace
 
 TEST_CASE("golden: every stage of every case is as committed") {
     const Run run = compare();
@@ -55,7 +56,7 @@ TEST_CASE("golden: a corrupted line is found and shown") {
     std::ofstream(file) << labels;
     const Run run = compare(copy.string());
     CHECK_FALSE(run.passed);
-    CHECK(run.output.find("cube_12: stage labels differs first at line 3") != std::string::npos);
+    CHECK(run.output.find("cube_12: stage 09-labels differs first at line 3") != std::string::npos);
     CHECK(run.output.find(std::string("found:    ") + old) != std::string::npos);
 }
 
@@ -64,7 +65,7 @@ TEST_CASE("golden: a missing golden is an error, and so is an empty kit") {
     fs::remove(copy / "cases/cube_12/03-naive.txt");
     Run run = compare(copy.string());
     CHECK_FALSE(run.passed);
-    CHECK(run.output.find("cube_12: stage naive: no golden file") != std::string::npos);
+    CHECK(run.output.find("cube_12: stage 03-naive: no golden file") != std::string::npos);
     fs::remove_all(copy / "cases");
     CHECK_FALSE(compare(copy.string()).passed);
 }

@@ -385,11 +385,9 @@ TEST_CASE("routines: small shapes get valid and monotone labelings from their gr
 }
 
 TEST_CASE("routines: these shapes do need repair") {
-    for (const MeshData& data :
-         {refined(creased(shapes::triangular_prism(3, 4, 4))), refined(creased(square_pyramid())),
-          refined(creased(shapes::octahedron())), refined_times(creased(shapes::tetrahedron()), 2), refined(creased(ramp()))}) {
+    for (const MeshData& data : {refined(creased(shapes::triangular_prism(3, 4, 4))), refined(creased(square_pyramid())),
+                                 refined(creased(shapes::octahedron())), refined_times(creased(shapes::tetrahedron()), 2)}) {
         const TriMesh mesh = build_mesh(data);
-        CAPTURE(mesh.facets());
         CHECK(Judge(mesh).state(graphcut_labeling(mesh)).score.invalid > 0);
     }
 }

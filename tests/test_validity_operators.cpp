@@ -381,6 +381,8 @@ TEST_CASE("validity operators: a turning-point where a ramp meets its plate beco
         CHECK(solved(after));                                                      // one new chart for both sides
         CHECK(after.graph.charts.size() == scene.state.graph.charts.size() + 2);   // and the upper half of the slope
     }
+    CHECK(solved(run_routines(scene.mesh, scene.state.labels)));
+    CHECK(solved(run_routines(scene.mesh, graphcut_labeling(scene.mesh))));
 }
 
 TEST_CASE("validity operators: a side of a pyramid gets a fourth boundary at the apex") {

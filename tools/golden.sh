@@ -4,24 +4,26 @@
 #   tools/golden.sh compare PROGRAM [GOLDEN_DIR]         all cases; status 0 only if every stage of every case is equal
 #   tools/golden.sh update PROGRAM CASE...               rewrites these cases and golden/corpus.csv; status 2 always
 #
-# PROGRAM is anything that answers `PROGRAM stage NAME PART` with the text of that stage on standard output.
+# PROGRAM is anything that answers `PROGRAM stages PART DIR` by writing the stages into the files 01-mesh.txt …
+# 10-statistics.txt of the folder DIR.
 here=$(cd "$(dirname "$0")/.." && pwd)
 mode=$1 program=$2
-[ $# -ge 2 ] || { sed -n '2,7s/^# *//p' "$0" >&2; exit 2; }
+[ $# -ge 2 ] || { sed -n '2,8s/^# *//p' "$0" >&2; exit 2; }
 shift 2
 golden=$here/golden
 [ "$mode" = compare ] && [ $# -gt 0 ] && golden=$1
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
-stages="mesh costs naive tilted graphcut graph turning-points trace labels statistics"
+stages="01-mesh 02-costs 03-naive 04-tilted 05-graphcut 06-graph 07-turning-points 08-trace 09-labels 10-statistics"
 
 part_of() { ls "$golden/cases/$1"/*.obj "$golden/cases/$1"/*.mesh 2>/dev/null | head -n 1; }
-file_of() { echo "$golden/cases/$1/$(echo "$stages" | tr ' ' '\n' | grep -nx "$2" | cut -d: -f1 | sed 's/^.$/0&/')-$2.txt"; }
-run() { "$program" stage "$2" "$(part_of "$1")" >"$scratch/actual" 2>"$scratch/error"; }
+run() {
+    rm -rf "$scratch/stages" && mkdir "$scratch/stages" && "$program" stages "$(part_of "$1")" "$scratch/stages" 2>"$scratch/error"
+}
 
 # One row of corpus.csv, from the stages as they are in the files.
 row() {
-    statistics=$(file_of "$1" statistics) labels=$(file_of "$1" labels)
+    statistics=$golden/cases/$1/10-statistics.txt labels=$golden/cases/$1/09-labels.txt
     set -- "$1" $(cat "$statistics" | tr -dc '0-9 \n' | sed 's/^ *//')
     echo "$1,$(wc -l <"$labels" | tr -d ' '),$2,$3,$4,$5,$6,$7,$8,$9,${15},$(cksum <"$labels" | cut -d' ' -f1)"
 }
@@ -33,19 +35,20 @@ table() {
 
 failed=0 passed=0
 check() {
+    if ! run "$1"; then echo "$1: the program failed: $(head -n 1 "$scratch/error")"; return 1; fi
     for stage in $stages; do
-        expected=$(file_of "$1" "$stage")
+        expected=$golden/cases/$1/$stage.txt found=$scratch/stages/$stage.txt
         if [ ! -f "$expected" ]; then echo "$1: stage $stage: no golden file"; return 1; fi
-        if ! run "$1" "$stage"; then echo "$1: stage $stage: the program failed: $(head -n 1 "$scratch/error")"; return 1; fi
+        if [ ! -f "$found" ]; then echo "$1: stage $stage: the program wrote none"; return 1; fi
+        cmp -s "$expected" "$found" && continue
         tr -d '\r' <"$expected" | sed -e '$a\' >"$scratch/expected"
-        tr -d '\r' <"$scratch/actual" | sed -e '$a\' >"$scratch/lines"
-        cmp -s "$scratch/expected" "$scratch/lines" && continue
-        line=$(cmp "$scratch/expected" "$scratch/lines" 2>/dev/null | sed 's/.*line //')
-        if [ -z "$line" ]; then line=$(($(cat "$scratch/expected" "$scratch/lines" | wc -l) / 2 + 1)); fi
+        tr -d '\r' <"$found" | sed -e '$a\' >"$scratch/found"
+        line=$(diff "$scratch/expected" "$scratch/found" | sed -n '1s/[^0-9].*//p')
+        [ -n "$line" ] || continue
+        if diff "$scratch/expected" "$scratch/found" | sed -n 1p | grep -q '^[0-9]*a'; then line=$((line + 1)); fi
         echo "$1: stage $stage differs first at line $line"
         echo "  expected: $(sed -n "${line}p" "$scratch/expected")"
-        echo "  found:    $(sed -n "${line}p" "$scratch/lines")"
-        echo "  see all:  $program stage $stage $(part_of "$1") | diff $expected -"
+        echo "  found:    $(sed -n "${line}p" "$scratch/found")"
         return 1
     done
 }
@@ -64,13 +67,15 @@ update)
     [ $# -gt 0 ] || { echo "update: name the cases" >&2; exit 2; }
     for case in "$@"; do
         [ -n "$(part_of "$case")" ] || { echo "$case: no input (.obj or .mesh)" >&2; exit 2; }
+        run "$case" || { cat "$scratch/error" >&2; exit 2; }
         for stage in $stages; do
-            file=$(file_of "$case" "$stage")
-            run "$case" "$stage" || { cat "$scratch/error" >&2; exit 2; }
-            if [ ! -f "$file" ]; then echo "$case: stage $stage is new"; elif ! cmp -s "$file" "$scratch/actual"; then
-                echo "$case: stage $stage: $(diff "$file" "$scratch/actual" | grep -c '^>') lines differ"
+            file=$golden/cases/$case/$stage.txt new=$scratch/stages/$stage.txt
+            if [ ! -f "$file" ]; then
+                echo "$case: stage $stage is new"
+            elif ! cmp -s "$file" "$new"; then
+                echo "$case: stage $stage: $(diff "$file" "$new" | grep -c '^>') lines differ"
             fi
-            cp "$scratch/actual" "$file"
+            cp "$new" "$file"
         done
     done
     table >"$golden/corpus.csv"

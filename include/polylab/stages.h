@@ -11,10 +11,12 @@
 
 namespace polylab {
 
-// In the order of the method: mesh costs naive tilted graphcut graph turning-points trace labels statistics.
-const std::vector<std::string>& stage_names();
+struct Stage {
+    std::string name;   // 01-mesh, 02-costs, …: also the name of its file, without .txt
+    std::string text;
+};
 
-// The text of one stage, all options at their defaults. Throws InputError where there is no such stage.
-std::string stage_text(const TriMesh& mesh, const std::string& stage);
+// All stages in the order of the method, all options at their defaults. The cost of a full run, several times over.
+std::vector<Stage> stages(const TriMesh& mesh);
 
 }   // namespace polylab
