@@ -446,6 +446,32 @@ TEST_CASE("paths: the band along a line of a grid is one row of squares per ring
     CHECK(band(scene.mesh, scene.state, line, top, 9).size() == 72);   // no further than the chart
 }
 
+TEST_CASE("paths: the strip at the left of a path is one row of squares per ring") {
+    // Up along x = 3 the left is toward x = 0. Two rings from the path are two rows; three all that there is.
+    const Scene scene(cube(6));
+    const Index top = upper_chart(scene);
+    const Halfedges up = greedy_path(scene.mesh, scene.state, scene.vertex({3, 0, 6}), top, {0, 1, 0});
+    REQUIRE(up.size() == 6);
+    std::set<Index> left, right;
+    for (const Index width : {1, 2, 3}) {
+        for (Index y = 0; y < 6; y++)
+            for (const Index k : {0, 1}) {
+                left.insert(first_facet(6, 3 - width, y) + k);
+                right.insert(first_facet(6, 2 + width, y) + k);
+            }
+        CHECK(as_set(strip_beside(scene.mesh, scene.state, up, width)) == left);
+        CHECK(as_set(strip_beside(scene.mesh, scene.state, reversed(scene.mesh, up), width)) == right);
+    }
+    CHECK(as_set(strip_beside(scene.mesh, scene.state, up, 9)) == left);
+}
+
+TEST_CASE("paths: vertices that a boundary passes") {
+    const Scene scene(cube(2), with_square(2, 0, 0, kX));
+    CHECK(on_border(scene.mesh, scene.state, scene.halfedge({1, 1, 2}, {1, 2, 2})));   // a corner of the square
+    CHECK(on_border(scene.mesh, scene.state, scene.halfedge({0, 0, 2}, {1, 1, 2})));   // whichever edge it is
+    CHECK_FALSE(on_border(scene.mesh, scene.state, scene.halfedge({1, 1, 0}, {1, 2, 0})));
+}
+
 TEST_CASE("paths: a band stays in its chart, or in none") {
     // Above, (6,3,6) is r of the square (5,2), in both of its facets, and q of (5,3), in one. In the plane of the side the
     // same: (3,6) is r of (2,5) and s of (3,5).

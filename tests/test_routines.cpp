@@ -21,7 +21,7 @@ using shapes::refined;
 
 namespace {
 
-constexpr Label kX = 0, kNegX = 1, kY = 2, kNegY = 3, kZ = 4, kNegZ = 5;
+constexpr Label kX = 0, kZ = 4, kNegZ = 5;
 
 using Shapes = std::vector<MeshData>;
 

@@ -1,5 +1,6 @@
 #!/bin/sh
-# check_lists.sh: Makefile and CMakeLists.txt name every source in src/ and no other, and all files state one version.
+# check_lists.sh: Makefile and CMakeLists.txt name every source in src/ and no other; a module includes only modules that
+# come before it in the Makefile's list; all files state one version.
 cd "$(dirname "$0")/.." || exit 2
 status=0
 on_disk=$(for file in src/*.cpp; do basename "$file" .cpp; done | grep -v '^main$' | sort)
@@ -10,6 +11,16 @@ for list in make cmake; do
     for module in $(printf '%s\n' "$on_disk" "$listed" | sort | uniq -u); do
         echo "src/$module.cpp is only on disk or only in the list of $list" >&2
         status=1
+    done
+done
+before="base vec3 labels"
+for module in $(sed -n '/^MODULES/ { :more; /\\$/ { N; b more; }; s/\\\n//g; s/^MODULES *= *//p; }' Makefile); do
+    before="$before $module"
+    for header in $(sed -n 's|^#include "polylab/\(.*\)\.h"|\1|p' "include/polylab/$module.h" "src/$module.cpp"); do
+        case " $before " in
+        *" $header "*) ;;
+        *) echo "$module includes polylab/$header.h, which is not below it" >&2; status=1 ;;
+        esac
     done
 done
 version=$(sed -n 's/.*kVersion = "\(.*\)".*/\1/p' include/polylab/polylab.h)
