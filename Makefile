@@ -43,7 +43,7 @@ dry_run = $(findstring n,$(firstword -$(MAKEFLAGS)))
 
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
-.PHONY: all demo test golden golden-update remarks doctest static amalgamated coverage install format format-fix tidy clean help FORCE
+.PHONY: all demo test golden golden-update remarks tie-audit doctest static amalgamated coverage install format format-fix tidy clean help FORCE
 
 all: $(program)
 
@@ -95,6 +95,12 @@ golden: $(program)
 golden-update: $(program)
 	@tools/golden.sh update $(program) $(CASE)
 
+# By how much the comparisons that decide labels are decided, over all golden cases.
+tie-audit:
+	@mkdir -p $(out)
+	$(quiet)$(compile) -DPOLYLAB_TIE_AUDIT -o $(out)/tie_audit tools/tie_audit.cpp $(MODULES:%=src/%.cpp) $(LDFLAGS)
+	@$(out)/tie_audit golden/cases/*/*.obj golden/cases/*/*.mesh
+
 # What a port has to know: rules between equals, traps, and where the paper or the published code is left.
 remarks:
 	@grep -rnE 'tie:|port:|differs:' include src
@@ -142,6 +148,7 @@ help:
 	@echo "make demo         labels the CAD model $(demo_model)"
 	@echo "make test         builds and runs the tests (doctest)"
 	@echo "make golden       compares with the golden cases; golden-update CASE=... rewrites some"
+	@echo "make tie-audit    by how much the comparisons that decide labels are decided"
 	@echo "make remarks      lists the rules between equals, traps for ports, and differences from the paper"
 	@echo "make static       build/polylab-static, one file that runs anywhere"
 	@echo "make amalgamated  all sources as one translation unit"

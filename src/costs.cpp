@@ -1,19 +1,30 @@
 #include "polylab/costs.h"
 
+#include "polylab/base.h"
+
 namespace polylab {
 
 namespace {
 
+// exp(-(x/sigma)^2 / 2). At its top the value is 1 or less than 1 by whether the exponent is below 2^-54: for any good exp.
 double gaussian(double x, double sigma) {
-    const double t = x / sigma;
-    return std::exp(-0.5 * (t * t));
+    const double t = x / sigma, exponent = 0.5 * (t * t);
+    audit("top of a bell, relative", std::abs(exponent / 0x1p-54 - 1));
+    return std::exp(-exponent);
+}
+
+// Truncates toward zero; how far the value was from the next integer is what rounding noise would have to bridge.
+int truncated(double cost, double top) {
+    const double nearest = std::floor(cost + 0.5);
+    if (nearest > 0 && nearest < top) audit("cost before truncation", std::abs(cost - nearest));
+    return static_cast<int>(cost);
 }
 
 }   // namespace
 
-int bell_cost(double x, double sigma, int scale) { return static_cast<int>(scale * gaussian(x, sigma)); }
+int bell_cost(double x, double sigma, int scale) { return truncated(scale * gaussian(x, sigma), scale); }
 
-int well_cost(double x, double sigma, int scale) { return static_cast<int>(scale * (1 - gaussian(x, sigma))); }
+int well_cost(double x, double sigma, int scale) { return truncated(scale * (1 - gaussian(x, sigma)), scale); }
 
 std::int32_t angle_cost(double c) {
     const double clamped = c < -1 ? -1 : c > 1 ? 1 : c;
@@ -23,6 +34,12 @@ std::int32_t angle_cost(double c) {
 std::int32_t angle_cost(const Vec3& a, const Vec3& b) {
     const double lengths = norm(a) * norm(b);
     return lengths > 0 ? angle_cost(dot(a, b) / lengths) : 0;
+}
+
+std::int64_t steps(double x) {
+    const double scaled = x * 1073741824, below = std::floor(scaled);
+    audit("choice in steps", std::abs(scaled - below - 0.5));
+    return static_cast<std::int64_t>(scaled - below < 0.5 ? below : below + 1);
 }
 
 SinCos sin_cos(double radians) {

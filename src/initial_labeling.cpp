@@ -34,6 +34,8 @@ std::vector<char> facets_to_tilt(const TriMesh& mesh, double sensitivity) {
         const Vec3& n = mesh.normal[f];
         double c[3] = {std::abs(n.x), std::abs(n.y), std::abs(n.z)};
         std::sort(c, c + 3);
+        audit("facet to tilt", std::abs(c[2] - c[1] - sensitivity));
+        audit(c[2] - c[1] < sensitivity ? "naive label of tilted facets" : "naive label of the others", c[2] - c[1]);
         tilt[f] = c[2] - c[1] < sensitivity;
     }
     return tilt;

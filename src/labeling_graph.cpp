@@ -3,12 +3,14 @@
 #include "polylab/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace polylab {
 
 namespace {
 
+constexpr double kFlat = 1e-9;          // sine of the angle below which an edge counts as flat
 constexpr Index kLeastBoundaries = 4;   // of a valid chart
 constexpr Index kBorder = -2;           // boundary[h] of a border that is not traced yet
 
@@ -266,7 +268,10 @@ bool valid_ring(const std::vector<int>& axes, bool allow_opposite) {
 
 bool is_convex(const TriMesh& mesh, Index h) {
     const Vec3& far_vertex = mesh.points[mesh.from(prev(mesh.opposite[h]))];
-    return dot(mesh.area_vector(facet(h)), far_vertex - mesh.points[mesh.from(h)]) < 0;
+    const Vec3 n = mesh.area_vector(facet(h)), e = far_vertex - mesh.points[mesh.from(h)];
+    const double lengths = norm(n) * norm(e), sine = lengths > 0 ? dot(n, e) / lengths : 0;
+    audit("convex edge, as a sine", std::abs(sine + kFlat));
+    return sine < -kFlat;
 }
 
 std::string graph_text(const LabelingGraph& graph) {

@@ -229,6 +229,7 @@ int run_surface(const Arguments& arguments) {
 int run_stages(const Arguments& arguments) {
     const std::vector<Stage> all = stages(read_surface(arguments.operands[0]));
     std::vector<Output> outputs;
+    outputs.reserve(all.size());
     for (const Stage& stage : all) outputs.push_back({arguments.operands[1] + "/" + stage.name + ".txt", stage.text});
     write_files(outputs);
     return kDone;

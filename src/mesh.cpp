@@ -154,6 +154,7 @@ void keep_sharp_features(TriMesh& mesh, const FeatureOptions& options) {
         if (h > o) continue;
         const Vec3 &a = mesh.normal[facet(h)], &b = mesh.normal[facet(o)];
         const bool flat = a == Vec3{} || b == Vec3{};
+        if (!flat && (options.detect || mesh.feature[h])) audit("feature angle", std::abs(dot(a, b) - options.cosine));
         const bool sharp = !flat && dot(a, b) <= options.cosine;   // tie: an angle of exactly the threshold is sharp
         const bool kept = sharp && (options.detect || mesh.feature[h]);
         mesh.feature[h] = mesh.feature[o] = kept;

@@ -1,18 +1,21 @@
 #include "polylab/paths.h"
 
+#include "polylab/costs.h"
+
 #include <algorithm>
 
 namespace polylab {
 
 namespace {
 
-constexpr double kLookAhead = 10;                      // mean edges
-constexpr double kFeatureAligned = 0.90630778703665;   // cos 25 degrees
-constexpr double kTurnsBack = 0;                       // cosine
+constexpr double kLookAhead = 10;                     // mean edges
+constexpr std::int64_t kOne = 1 << 30;                // in steps
+constexpr std::int64_t kFeatureAligned = 973140576;   // cos 25 degrees, in steps
 
-double cosine(const Vec3& a, const Vec3& b) {
-    const double lengths = std::sqrt(dot(a, a) * dot(b, b));
-    return lengths > 0 ? dot(a, b) / lengths : -1;
+// The cosine between two vectors, in steps; that of a right angle if one has no length.
+std::int64_t cosine(const Vec3& a, const Vec3& b) {
+    const double lengths = norm(a) * norm(b);
+    return lengths > 0 ? steps(dot(a, b) / lengths) : 0;
 }
 
 bool inside(const TriMesh& mesh, const State& state, Index h, Index chart) {
@@ -27,12 +30,13 @@ bool is_turning_point(const State& state, Index vertex) {
 // The half-edge around the origin of `around` that runs inside the chart and is best aligned with the direction.
 Index most_aligned(const TriMesh& mesh, const State& state, Index around, Index chart, const Vec3& direction) {
     Index best = kNone;
-    double best_value = kTurnsBack;
+    std::int64_t best_value = 0;   // beyond a right angle it turns back
     Index h = around;
     do {
         h = mesh.cw(h);
         if (!inside(mesh, state, h, chart)) continue;
-        const double c = cosine(mesh.vector(h), direction), value = mesh.feature[h] && c > kFeatureAligned ? c + 1 : c;
+        const std::int64_t c = cosine(mesh.vector(h), direction);
+        const std::int64_t value = mesh.feature[h] && c > kFeatureAligned ? c + kOne : c;
         if (value > best_value) {   // tie: first clockwise
             best = h;
             best_value = value;
@@ -106,9 +110,9 @@ Halfedges lost_feature_path(const TriMesh& mesh, const State& state, Index h) {
         const Index back = mesh.opposite[h];
         if (on_border(mesh, state, back)) break;
         Index best = kNone;
-        double best_cosine = 0;
+        std::int64_t best_cosine = 0;
         for (const Index other : lost_features_at(mesh, state, back)) {
-            const double c = cosine(mesh.vector(other), mesh.vector(h));
+            const std::int64_t c = cosine(mesh.vector(other), mesh.vector(h));
             if (other == back || !inside(mesh, state, other, chart) || (best != kNone && c <= best_cosine)) continue;
             best = other;
             best_cosine = c;
@@ -226,13 +230,19 @@ Vec3 mean_normal(const TriMesh& mesh, const std::vector<Index>& facets) {
     return sum;
 }
 
+std::vector<Label> labels_by_fit(const Vec3& normal) {
+    const Vec3 n = unit(normal);
+    std::int64_t fit[kLabels];
+    for (Label l = 0; l < kLabels; l++) fit[l] = steps(along(n, l));
+    std::vector<Label> labels = {0, 1, 2, 3, 4, 5};
+    std::stable_sort(labels.begin(), labels.end(), [&](Label a, Label b) { return fit[a] > fit[b]; });   // tie: smallest label
+    return labels;
+}
+
 Label best_label(const Vec3& v, int forbidden_axis, int other_forbidden_axis) {
-    Label best = kNoLabel;
-    for (Label l = 0; l < kLabels; l++) {
-        if (axis(l) == forbidden_axis || axis(l) == other_forbidden_axis) continue;
-        if (best == kNoLabel || along(v, l) > along(v, best)) best = l;
-    }
-    return best;
+    for (const Label l : labels_by_fit(v))
+        if (axis(l) != forbidden_axis && axis(l) != other_forbidden_axis) return l;
+    return kNoLabel;
 }
 
 Patch relabel(const std::vector<Index>& facets, Label label) {

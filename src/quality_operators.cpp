@@ -1,5 +1,7 @@
 #include "polylab/quality_operators.h"
 
+#include "polylab/costs.h"
+
 #include <algorithm>
 #include <array>
 
@@ -114,11 +116,12 @@ Halfedges straight_path(const TriMesh& mesh, const State& state, const Boundary&
     while (mesh.from(around) != target) {
         const Vec3 aim = mesh.points[target] - mesh.points[mesh.from(around)];
         Index best = kNone;
-        double best_value = 0;
+        std::int64_t best_value = 0;
         Index h = around;
         do {
             h = mesh.cw(h);
-            const double length = norm(mesh.vector(h)), value = length > 0 ? dot(mesh.vector(h), aim) / length : 0;
+            const double length = norm(mesh.vector(h)) * mesh.mean_edge;
+            const std::int64_t value = length > 0 ? steps(dot(mesh.vector(h), aim) / length) : 0;
             if (value > best_value && !visited[mesh.to(h)] && in_charts(mesh.left(h)) && in_charts(mesh.right(h)) &&
                 usable(h)) {   // tie: first clockwise
                 best = h;

@@ -175,6 +175,7 @@ Chain make_chain(const TriMesh& mesh, const std::vector<Index>& halfedges, int a
     for (std::size_t i = 0; i < n; i++) {
         const Vec3 e = unit(mesh.vector(halfedges[i])), following = unit(mesh.vector(halfedges[i + 1 < n ? i + 1 : 0]));
         const int against = well_cost(e[axis], kEdgeSigma, kChainScale);
+        // An edge across the axis costs nothing in either direction, so that noise in its sign is harmless.
         chain.cost[0].push_back(e[axis] > 0 ? against : 0);
         chain.cost[1].push_back(e[axis] > 0 ? 0 : against);
         chain.change.push_back(bell_cost(dot(e, following) - 1, kChangeSigma, kChainScale));
@@ -269,7 +270,7 @@ Index closest_corner(const TriMesh& mesh, const LabelingGraph& graph, const Turn
     double before = 0, after = 0;
     for (Index i = boundary.halfedges.first; i < boundary.halfedges.last; i++)
         (i < boundary.halfedges.first + t.position ? before : after) += norm(mesh.vector(graph.halfedges[i]));
-    return before < after ? boundary.start : boundary.end;
+    return steps(before / mesh.mean_edge) < steps(after / mesh.mean_edge) ? boundary.start : boundary.end;
 }
 
 }   // namespace polylab

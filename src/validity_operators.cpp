@@ -122,13 +122,6 @@ Patch chart_beside(const TriMesh& mesh, const State& state, Index chart, const S
 
 // ---- charts along boundaries and around corners
 
-std::vector<Label> labels_by_fit(const Vec3& normal) {
-    std::vector<Label> labels = {0, 1, 2, 3, 4, 5};
-    std::stable_sort(labels.begin(), labels.end(),
-                     [&](Label a, Label b) { return along(normal, a) > along(normal, b); });   // tie: smallest label
-    return labels;
-}
-
 Halfedges boundary_path(const State& state, Index b) {
     const Range r = state.graph.boundaries[b].halfedges;
     return {state.graph.halfedges.begin() + r.first, state.graph.halfedges.begin() + r.last};

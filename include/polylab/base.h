@@ -34,4 +34,12 @@ private:
     Index line_ = 0;
 };
 
+// Every comparison of floating-point numbers that decides a label reports by how much it was decided; 0 is an exact tie,
+// which goes by a rule. Nothing happens but in the tie audit (tools/tie_audit.cpp), which is built with the macro.
+#if defined(POLYLAB_TIE_AUDIT)
+void audit(const char* comparison, double margin);
+#else
+inline void audit(const char*, double) {}
+#endif
+
 }   // namespace polylab

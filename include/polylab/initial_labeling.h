@@ -16,6 +16,8 @@ struct InitialOptions {
 };
 
 // The label closest to each normal; the first of equals; +X for a facet without area. O(n)
+// port: on facets at exactly 45 degrees rounding decides (the paper's reason for the tilt): compute normals as mesh.h does,
+// in the same order of operations.
 Labeling naive_labeling(const TriMesh& mesh);
 
 // Facets whose two closest labels differ by less than `sensitivity`: near 45 degrees, where rounding would decide.

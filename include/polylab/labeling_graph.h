@@ -102,7 +102,8 @@ void build_graph(const TriMesh& mesh, const Labeling& labels, LabelingGraph& gra
 bool valid_ring(const std::vector<int>& axes, bool allow_opposite);
 
 // Whether the solid's angle at the edge is less than 180 degrees: the right facet's far vertex lies below the left facet.
-// A flat edge is not convex.   tie: exactly in the plane counts as 180 degrees
+// A flat edge is not convex.   tie: within 1e-9 of the plane counts as 180 degrees. differs: published without tolerance, so
+// that rounding noise in a flat seam decides
 bool is_convex(const TriMesh& mesh, Index h);
 
 // All of the graph as text, one element per line, numbers only: equal graphs give equal texts, in any program.

@@ -51,6 +51,9 @@ std::vector<Halfedges> contours(const TriMesh& mesh, const State& state, Index c
 // Sum of the facets' unit normals.
 Vec3 mean_normal(const TriMesh& mesh, const std::vector<Index>& facets);
 
+// All labels, the closest to a vector first.   tie: smallest label
+std::vector<Label> labels_by_fit(const Vec3& normal);
+
 // The label closest to a vector whose axis is none of the two given.   tie: smallest label
 Label best_label(const Vec3& v, int forbidden_axis, int other_forbidden_axis);
 
