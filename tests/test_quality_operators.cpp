@@ -456,6 +456,29 @@ TEST_CASE("quality operators: what has no ends or three edges at most is not str
     for (Index b = 0; b < 12; b++) CHECK(straighten_boundary(small.mesh, small.state, b).empty());
 }
 
+TEST_CASE("quality operators: a boundary without corner is not straightened, even if feature edges divide it") {
+    // A cube on a plate is +X, and with it three squares of the plate at one side. Around the foot of the cube run three feature
+    // edges, and around the squares seven edges that are none.
+    std::vector<shapes::Cell> cells = {{2, 2, 1}};
+    for (int i = 0; i < 25; i++) cells.push_back({i % 5, i / 5, 0});
+    const MeshData data = shapes::creased(shapes::voxels(cells));
+    const TriMesh mesh = build_mesh(data);
+    Labeling labels = naive_labeling(mesh);
+    std::fill(labels.begin(), labels.begin() + 10, kX);   // the cube comes first: five free sides
+    for (Index f = 10; f < mesh.facets(); f++) {
+        Vec3 middle;
+        for (Index h = 3 * f; h < 3 * f + 3; h++) middle += mesh.points[mesh.from(h)] * (1.0 / 3);
+        if (middle.z == 1 && middle.x > 3 && middle.x < 4 && middle.y > 1 && middle.y < 4) labels[f] = kX;
+    }
+    const Scene scene(data, labels);
+    const Index chart = scene.state.graph.chart[0];
+    REQUIRE(scene.state.graph.charts[chart].boundaries.size() == 1);
+    const Index b = scene.state.graph.chart_boundaries[scene.state.graph.charts[chart].boundaries.first];
+    REQUIRE(scene.state.graph.boundaries[b].start == kNone);
+    REQUIRE(scene.state.graph.boundaries[b].halfedges.size() == 10);
+    CHECK(straighten_boundary(scene.mesh, scene.state, b).empty());
+}
+
 TEST_CASE("quality operators: straightening moves facets between the boundary's two charts only") {
     Index found = 0;
     for (const Scene& scene : patchy_scenes(4)) {

@@ -184,12 +184,13 @@ private:
 //      1 ---+-----+---
 //      0 --------------   x
 //           2     6   8
-Shape ramp_on_plate() {
+Shape ramp_on_plate(double length = 4) {
     Surface s;
-    for (double x = 0; x < 8; x++) {
+    const double end = 2 + length, width = end + 2;
+    for (double x = 0; x < width; x++) {
         for (double y = 0; y < 6; y++) {
             s.add(kNegZ, {{x, y, 0}, {x, y + 1, 0}, {x + 1, y + 1, 0}, {x + 1, y, 0}});
-            const bool ramp = x >= 2 && x < 6 && y >= 2 && y < 4;
+            const bool ramp = x >= 2 && x < end && y >= 2 && y < 4;
             const double z = ramp ? x - 1 : 1, rise = ramp;
             s.add(kZ, {{x, y, z}, {x + 1, y, z + rise}, {x + 1, y + 1, z + rise}, {x, y + 1, z}});
         }
@@ -198,9 +199,9 @@ Shape ramp_on_plate() {
     }
     for (double y = 0; y < 6; y++) {
         s.add(kNegX, {{0, y, 1}, {0, y + 1, 1}, {0, y + 1, 0}, {0, y, 0}});
-        s.add(kX, {{8, y, 0}, {8, y + 1, 0}, {8, y + 1, 1}, {8, y, 1}});
+        s.add(kX, {{width, y, 0}, {width, y + 1, 0}, {width, y + 1, 1}, {width, y, 1}});
     }
-    for (double x = 2; x < 6; x++) {
+    for (double x = 2; x < end; x++) {
         for (double z = 1; z < x - 1; z++) {
             s.add(kNegY, {{x, 2, z}, {x + 1, 2, z}, {x + 1, 2, z + 1}, {x, 2, z + 1}});
             s.add(kY, {{x, 4, z + 1}, {x + 1, 4, z + 1}, {x + 1, 4, z}, {x, 4, z}});
@@ -209,7 +210,7 @@ Shape ramp_on_plate() {
         s.add(kY, {{x + 1, 4, x}, {x + 1, 4, x - 1}, {x, 4, x - 1}});
     }
     for (double y = 2; y < 4; y++)
-        for (double z = 1; z < 5; z++) s.add(kX, {{6, y, z}, {6, y + 1, z}, {6, y + 1, z + 1}, {6, y, z + 1}});
+        for (double z = 1; z < 1 + length; z++) s.add(kX, {{end, y, z}, {end, y + 1, z}, {end, y + 1, z + 1}, {end, y, z + 1}});
     s.shape.data = shapes::creased(s.shape.data);
     return s.shape;
 }
@@ -383,6 +384,19 @@ TEST_CASE("validity operators: a turning-point where a ramp meets its plate beco
     }
     CHECK(solved(run_routines(scene.mesh, scene.state.labels)));
     CHECK(solved(run_routines(scene.mesh, graphcut_labeling(scene.mesh))));
+}
+
+TEST_CASE("validity operators: an edge that may follow either axis goes over to the new one") {
+    // At 45 degrees, of three edges: with one, 1 against 3 that stay; with two, 2 against 2, which is not more; with three, 3
+    // against 1. So two go over.
+    const Scene scene(ramp_on_plate(3));
+    for (Index c = 0; c < static_cast<Index>(scene.state.graph.charts.size()); c++) {
+        if (scene.state.graph.charts[c].valid) continue;
+        const Proposals found = increase_chart_valence(scene.mesh, scene.state, c);
+        REQUIRE(found.size() == 1);
+        CHECK(found[0].size() == 8);
+        CHECK(solved(scene.after(found[0])));
+    }
 }
 
 TEST_CASE("validity operators: a side of a pyramid gets a fourth boundary at the apex") {
@@ -615,6 +629,21 @@ TEST_CASE("validity operators: a removed chart takes labels of its neighbours on
     const Proposals found = remove_chart(scene.mesh, scene.state, cell);
     REQUIRE(found.size() == 1);
     CHECK(is_patch(found[0], scene.of_chart(cell), kZ));
+}
+
+TEST_CASE("validity operators: a removed chart follows its surroundings where that costs less than fidelity") {
+    // The upper face of cube(6) is +X from x = 3 on, and the stray square (3,2) has +X at three sides, +Z at one. As +Z it fits,
+    // but for three borders of 100; as +X it costs 99 per facet and one border; as one facet of each 99 and two borders.
+    std::vector<std::array<Index, 2>> squares;
+    for (Index x = 3; x < 6; x++)
+        for (Index y = 0; y < 6; y++) squares.push_back({x, y});
+    Shape shape = cube_with(6, squares, kX);
+    const Index stray = 8 * 36 + 2 * 15;
+    shape.labels[stray] = shape.labels[stray + 1] = kNegY;
+    const Scene scene(shape);
+    const Proposals found = remove_chart(scene.mesh, scene.state, scene.state.graph.chart[stray]);
+    REQUIRE(found.size() == 1);
+    CHECK(is_patch(found[0], {stray, stray + 1}, kX));
 }
 
 TEST_CASE("validity operators: charts removed together do not lend each other their labels") {
