@@ -224,6 +224,16 @@ std::vector<Halfedges> contours(const TriMesh& mesh, const State& state, Index c
     return result;
 }
 
+std::vector<Halfedges> runs_of(const State& state, const Halfedges& contour) {
+    std::vector<Halfedges> runs;
+    for (const Index h : contour) {
+        const bool same = !runs.empty() && state.graph.boundary[runs.back().back()] == state.graph.boundary[h];
+        if (!same) runs.emplace_back();
+        runs.back().push_back(h);
+    }
+    return runs;
+}
+
 Vec3 mean_normal(const TriMesh& mesh, const std::vector<Index>& facets) {
     Vec3 sum;
     for (const Index f : facets) sum += mesh.normal[f];

@@ -49,11 +49,7 @@ std::vector<Pull> pulls(const TriMesh& mesh, const State& state, const TurningPo
     const Index nearest = closest_corner(mesh, state.graph, t);
     for (const Index chart : {left_first ? boundary.left : boundary.right, left_first ? boundary.right : boundary.left}) {
         for (const Halfedges& contour : contours(mesh, state, chart)) {
-            std::vector<Halfedges> runs;
-            for (const Index h : contour) {
-                if (runs.empty() || state.graph.boundary[runs.back().back()] != state.graph.boundary[h]) runs.emplace_back();
-                runs.back().push_back(h);
-            }
+            const std::vector<Halfedges> runs = runs_of(state, contour);
             if (runs.size() < 2) continue;
             for (std::size_t r = 0; r < runs.size(); r++) {
                 const Halfedges& run = runs[r];

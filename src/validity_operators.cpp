@@ -11,11 +11,10 @@ namespace polylab {
 namespace {
 
 constexpr int kWidths[] = {1, 2, 5};          // rings of facets of a chart inserted along a boundary
+constexpr int kGivenWidths[] = {1, 3};        // along a boundary that moves
 constexpr int kCornerWidths[] = {1, 2, 4};    // and around a corner
 constexpr std::size_t kShortestSegment = 3;   // edges of a contour that go over to an inserted axis, unless fewer balance
 constexpr Index kForbidden = 100000;          // cost of a label that a facet must not take
-
-const Chart& chart_at(const State& state, Index f) { return state.graph.charts[state.graph.chart[f]]; }
 
 // ---- increase chart valence (6.4.1)
 
@@ -24,17 +23,6 @@ struct Spot {
     Index vertex;
     Halfedges down, up;   // polyedges that leave the vertex along the contour, clockwise and counter-clockwise
 };
-
-// The boundaries of a contour in order, each as its run of half-edges.
-std::vector<Halfedges> runs_of(const State& state, const Halfedges& contour) {
-    std::vector<Halfedges> runs;
-    for (const Index h : contour) {
-        const bool same = !runs.empty() && state.graph.boundary[runs.back().back()] == state.graph.boundary[h];
-        if (!same) runs.emplace_back();
-        runs.back().push_back(h);
-    }
-    return runs;
-}
 
 std::vector<Spot> find_spots(const TriMesh& mesh, const State& state, const Halfedges& contour) {
     std::vector<Spot> spots;
@@ -129,6 +117,38 @@ Halfedges boundary_path(const State& state, Index b) {
 
 void propose(Proposals& proposals, const std::vector<Index>& facets, Label label) {
     if (!facets.empty()) proposals.push_back(relabel(facets, label));
+}
+
+// A new chart that covers the vertex.
+void chart_around(Proposals& proposals, const TriMesh& mesh, const State& state, Index vertex) {
+    for (const int width : kCornerWidths) {
+        const std::vector<Index> around = band(mesh, state, {vertex}, kNone, width);
+        for (const Label l : labels_by_fit(mean_normal(mesh, around))) propose(proposals, around, l);
+    }
+}
+
+// A new chart beside each lost feature edge of the vertex, along the way that it leads: a boundary that should be there.
+void charts_along_lost_features(Proposals& proposals, const TriMesh& mesh, const State& state, Index leaving) {
+    for (const Index lost : lost_features_at(mesh, state, leaving)) {
+        const Halfedges path = lost_feature_path(mesh, state, lost);
+        const Label old = state.labels[mesh.left(lost)];
+        for (const Halfedges& side : {path, reversed(mesh, path)}) {
+            const std::vector<Index> strip = strip_beside(mesh, state, side, 1);
+            for (const Label l : labels_by_fit(mean_normal(mesh, strip)))
+                if (orthogonal(l, old)) propose(proposals, strip, l);
+        }
+    }
+}
+
+// One side of a boundary takes the label of the other along it, so that the boundary moves away from its corners.
+void sides_give_way(Proposals& proposals, const TriMesh& mesh, const State& state, Index b) {
+    const Boundary& boundary = state.graph.boundaries[b];
+    const std::vector<Index> vertices = vertices_of(mesh, boundary_path(state, b));
+    const Label left = state.graph.charts[boundary.left].label, right = state.graph.charts[boundary.right].label;
+    for (const int width : kGivenWidths) {
+        propose(proposals, band(mesh, state, vertices, boundary.left, width), right);
+        propose(proposals, band(mesh, state, vertices, boundary.right, width), left);
+    }
 }
 
 // ---- chart removal
@@ -239,32 +259,12 @@ Proposals opposite_boundary(const TriMesh& mesh, const State& state, Index bound
 Proposals high_valence_corner(const TriMesh& mesh, const State& state, Index corner) {
     Proposals proposals;
     const Corner& c = state.graph.corners[corner];
-    const Index first_ring = c.rings.first;
-    for (const int width : kCornerWidths) {
-        const std::vector<Index> around = band(mesh, state, {c.vertex}, kNone, width);
-        for (const Label l : labels_by_fit(mean_normal(mesh, around))) propose(proposals, around, l);
-    }
-    for (Index r = first_ring; r < c.rings.last; r++) {
+    chart_around(proposals, mesh, state, c.vertex);
+    for (Index r = c.rings.first; r < c.rings.last; r++) {
         const Range ring = state.graph.rings[r].halfedges;
-        for (const Index lost : lost_features_at(mesh, state, state.graph.ring_halfedges[ring.first])) {
-            const Halfedges path = lost_feature_path(mesh, state, lost);
-            const Label old = chart_at(state, mesh.left(lost)).label;
-            for (const Halfedges& side : {path, reversed(mesh, path)}) {
-                const std::vector<Index> strip = strip_beside(mesh, state, side, 1);
-                for (const Label l : labels_by_fit(mean_normal(mesh, strip)))
-                    if (orthogonal(l, old)) propose(proposals, strip, l);
-            }
-        }
-        for (Index i = ring.first; i < ring.last; i++) {
-            const Index b = state.graph.boundary[state.graph.ring_halfedges[i]];
-            const Boundary& boundary = state.graph.boundaries[b];
-            for (const int width : {1, 3}) {
-                propose(proposals, band(mesh, state, vertices_of(mesh, boundary_path(state, b)), boundary.left, width),
-                        state.graph.charts[boundary.right].label);
-                propose(proposals, band(mesh, state, vertices_of(mesh, boundary_path(state, b)), boundary.right, width),
-                        state.graph.charts[boundary.left].label);
-            }
-        }
+        charts_along_lost_features(proposals, mesh, state, state.graph.ring_halfedges[ring.first]);
+        for (Index i = ring.first; i < ring.last; i++)
+            sides_give_way(proposals, mesh, state, state.graph.boundary[state.graph.ring_halfedges[i]]);
     }
     return proposals;
 }

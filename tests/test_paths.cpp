@@ -272,9 +272,9 @@ TEST_CASE("paths: a greedy path prefers feature edges within 25 degrees") {
     const Scene plain(roof(false), roof_labels()), creased(roof(true), roof_labels());
     REQUIRE(plain.mesh.mean_edge > 10);
     const Index plain_roof = plain.state.graph.chart[16], creased_roof = creased.state.graph.chart[16];
-    CHECK(plain.greedy({20, 28, 40}, plain_roof, in_xz(20))[1] == Vec3{30, 24, 20});
+    CHECK(plain.greedy({20, 28, 40}, plain_roof, in_xz(20)).at(1) == Vec3{30, 24, 20});
     CHECK(creased.greedy({20, 28, 40}, creased_roof, in_xz(20)) == along_ridge);
-    CHECK(creased.greedy({20, 28, 40}, creased_roof, in_xz(30))[1] == Vec3{30, 24, 20});
+    CHECK(creased.greedy({20, 28, 40}, creased_roof, in_xz(30)).at(1) == Vec3{30, 24, 20});
     CHECK(plain.greedy({20, 28, 40}, plain_roof, in_xz(0)) == along_ridge);   // both agree where the ridge is best
     CHECK(creased.greedy({20, 28, 40}, creased_roof, in_xz(0)) == along_ridge);
 }

@@ -1,8 +1,8 @@
 #!/bin/sh
 # golden.sh: compares a program with the golden cases, or rewrites named ones. golden/README.md is the contract.
 #
-#   tools/golden.sh compare PROGRAM [GOLDEN_DIR]         all cases; status 0 only if every stage of every case is equal
-#   tools/golden.sh update PROGRAM CASE...               rewrites these cases and golden/corpus.csv; status 2 always
+#   tools/golden.sh compare PROGRAM [-d GOLDEN_DIR] [-u LAST_STAGE] [CASE...]   status 0 only if all stages are equal
+#   tools/golden.sh update PROGRAM CASE...              rewrites these cases and golden/corpus.csv; status 2 always
 #
 # PROGRAM is anything that answers `PROGRAM stages PART DIR` by writing the stages into the files 01-mesh.txt …
 # 10-statistics.txt of the folder DIR.
@@ -11,10 +11,18 @@ mode=$1 program=$2
 [ $# -ge 2 ] || { sed -n '2,8s/^# *//p' "$0" >&2; exit 2; }
 shift 2
 golden=$here/golden
-[ "$mode" = compare ] && [ $# -gt 0 ] && golden=$1
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 stages="01-mesh 02-costs 03-naive 04-tilted 05-graphcut 06-graph 07-turning-points 08-trace 09-labels 10-statistics"
+
+while [ $# -ge 2 ]; do
+    case $1 in
+    -d) golden=$2 ;;
+    -u) stages="${stages%%"$2"*}$2" ;;
+    *) break ;;
+    esac
+    shift 2
+done
 
 part_of() { ls "$golden/cases/$1"/*.obj "$golden/cases/$1"/*.mesh 2>/dev/null | head -n 1; }
 run() {
@@ -40,15 +48,16 @@ check() {
         expected=$golden/cases/$1/$stage.txt found=$scratch/stages/$stage.txt
         if [ ! -f "$expected" ]; then echo "$1: stage $stage: no golden file"; return 1; fi
         if [ ! -f "$found" ]; then echo "$1: stage $stage: the program wrote none"; return 1; fi
-        cmp -s "$expected" "$found" && continue
+        if cmp -s "$expected" "$found"; then echo "$stage" >>"$scratch/equal"; continue; fi
         tr -d '\r' <"$expected" | sed -e '$a\' >"$scratch/expected"
         tr -d '\r' <"$found" | sed -e '$a\' >"$scratch/found"
         line=$(diff "$scratch/expected" "$scratch/found" | sed -n '1s/[^0-9].*//p')
-        [ -n "$line" ] || continue
+        if [ -z "$line" ]; then echo "$stage" >>"$scratch/equal"; continue; fi
         if diff "$scratch/expected" "$scratch/found" | sed -n 1p | grep -q '^[0-9]*a'; then line=$((line + 1)); fi
         echo "$1: stage $stage differs first at line $line"
         echo "  expected: $(sed -n "${line}p" "$scratch/expected")"
         echo "  found:    $(sed -n "${line}p" "$scratch/found")"
+        echo "  in all:   $(diff "$scratch/expected" "$scratch/found" | grep -c '^[<>]') lines that the other has not"
         return 1
     done
 }
@@ -56,10 +65,19 @@ check() {
 case $mode in
 compare)
     [ -d "$golden/cases" ] || { echo "$golden/cases: no golden cases"; exit 1; }
-    for case in "$golden"/cases/*/; do
-        if check "$(basename "$case")"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+    : >"$scratch/equal"
+    whole=$([ $# -eq 0 ] && echo yes)
+    [ $# -gt 0 ] || set -- $(ls "$golden/cases")
+    for case in "$@"; do
+        if check "$case"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
     done
-    table 2>/dev/null | cmp -s - "$golden/corpus.csv" || { echo "$golden/corpus.csv does not say what the cases say"; failed=$((failed + 1)); }
+    if [ $failed -gt 0 ]; then
+        for stage in $stages; do echo "equal up to $stage: $(grep -cx "$stage" "$scratch/equal") of $#"; done
+    fi
+    if [ -n "$whole" ] && ! table 2>/dev/null | cmp -s - "$golden/corpus.csv"; then
+        echo "$golden/corpus.csv does not say what the cases say"
+        failed=$((failed + 1))
+    fi
     echo "golden: $passed cases equal, $failed different"
     [ "$passed" -gt 0 ] && [ "$failed" -eq 0 ]
     ;;

@@ -25,6 +25,8 @@ struct PottsEnergy {
 
 // The best move towards alpha from `labels`: applied, and true returned, if its energy is lower than before.
 // tie: among the moves of least energy, the one in which most sites take alpha. Cost: one max-flow.
+// Alpha is the source side. A site that has alpha stays; the edges to its neighbours cost them for keeping. port: any exact
+// construction gives the same move, since the minimum cut with the largest source side is unique.
 bool expand(const PottsEnergy& energy, MaxFlow& network, Label alpha, Labeling& labels);
 
 // Cycles over the labels 0..5 in this order, at most `cycles`, ending early after a cycle without change.

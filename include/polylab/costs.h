@@ -11,13 +11,14 @@
 
 namespace polylab {
 
-// trunc(scale * exp(-(x/sigma)^2 / 2)), a bell: `scale` at x = 0.        port: truncation toward zero, not rounding
+// trunc(scale * exp(-0.5 * (t * t))) with t = x / sigma, a bell: `scale` at x = 0.        port: truncation toward zero, not
+// rounding
 int bell_cost(double x, double sigma, int scale);
 
 // trunc(scale * (1 - exp(-(x/sigma)^2 / 2))), its complement: 0 at x = 0. port: not scale - bell_cost
 int well_cost(double x, double sigma, int scale);
 
-// The angle whose cosine is c (clamped to [-1, 1]), in microradians: 0..3141593.
+// The angle whose cosine is c (clamped to [-1, 1]), in microradians, trunc(1e6 acos(c) + 0.5): 0..3141593.
 std::int32_t angle_cost(double c);
 
 // The angle between two vectors in microradians; 0 where one of them has no length.

@@ -20,10 +20,14 @@ struct InitialOptions {
 // in the same order of operations.
 Labeling naive_labeling(const TriMesh& mesh);
 
-// Facets whose two closest labels differ by less than `sensitivity`: near 45 degrees, where rounding would decide.
+// Facets at which the two largest of the six along(normal, l), negative ones counting as 0, differ by less than `sensitivity`:
+// near 45 degrees, where rounding would decide. A facet without area is one of them; tilting leaves its zero normal.
 std::vector<char> facets_to_tilt(const TriMesh& mesh, double sensitivity);
 
-// R = Rz Ry Rx, the rotation by `angle` around each axis in turn, applied to a normal.
+// R n with R = Rz Ry Rx, c and s from sin_cos(angle), as one matrix:
+//   [ c c   s c (s-1)     s (c c + s) ]   the published matrix: first around X, (y, z) -> (c y - s z, s y + c z), then around
+//   [ s c   s s s + c c   s c (s-1)   ]   Y, (x, z) -> (c x + s z, c z - s x), then around Z, (x, y) -> (c x - s y, s x + c y)
+//   [ -s    s c           c c         ]
 Vec3 tilted(const Vec3& normal, double angle);
 
 // trunc(100 fidelity (1 - exp(-((n.d - 1)/0.2)^2 / 2))): what it costs to give label l to a facet with this normal.

@@ -43,9 +43,9 @@ struct Boundary {
     Index start = kNone, end = kNone;    // corners
     int axis = kNone;                    // the axis it follows in the polycube; kNone between opposite labels
     bool on_features = false;            // every edge is a kept feature edge
-    bool valid = false;                  // orthogonal labels, or opposite ones over edges of 180 degrees or more (if allowed)
+    bool valid = false;                  // orthogonal labels; or opposite ones, if allowed, where no edge is_convex()
 
-    bool closed() const { return start == end; }
+    bool closed() const { return start == end; }   // through one corner, or without corner
 };
 
 // A corner has one ring per fan of facets in which three or more boundary edges meet.
@@ -97,11 +97,19 @@ struct LabelingGraph {
 LabelingGraph build_graph(const TriMesh& mesh, const Labeling& labels, bool allow_opposite = true);
 void build_graph(const TriMesh& mesh, const Labeling& labels, LabelingGraph& graph);
 
-// Whether boundary axes around a ring can be those of a polycube's corner (paper, Section 4; published code's rule).
-// axes: of the boundaries in ring order; kNone between opposite labels.
+// Whether boundary axes around a ring can be those of a polycube's corner (paper, Section 4; the published code's rule).
+// axes: of the boundaries in ring order; kNone (-) between opposite labels.
+//   1. If allow_opposite is false and some axis is -, the ring is invalid.
+//   2. Each axis next to a -, on either side around the ring, is left out: both neighbours of such a boundary turn back there.
+//   3. Count what is left per axis. Nothing left: valid (the vertex lies inside the volume). One axis only: valid if it is
+//      there exactly twice (the vertex lies on a boundary). Otherwise valid if the three counts are all even or all odd:
+//      pairs, or pairs and one trio X Y Z.
+// So XXYY, XYZ, XXXYZ, -XX, -XXXX, ---- are valid; XXXX, XXX, XXYZ, -XYZ, -X-XXX are not.
+// differs: the paper's words (pairs or one trio); rings of one vertex are judged each alone, where the published code pools them.
 bool valid_ring(const std::vector<int>& axes, bool allow_opposite);
 
-// Whether the solid's angle at the edge is less than 180 degrees: the right facet's far vertex lies below the left facet.
+// Whether the solid's angle at the edge is less than 180 degrees: the right facet's far vertex p lies below the left facet,
+// n . e / (|n| |e|) < -1e-9 with n = area_vector(left(h)), e = p - from(h).
 // A flat edge is not convex.   tie: within 1e-9 of the plane counts as 180 degrees. differs: published without tolerance, so
 // that rounding noise in a flat seam decides
 bool is_convex(const TriMesh& mesh, Index h);

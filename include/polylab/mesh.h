@@ -35,7 +35,7 @@ struct MeshData {
 };
 
 // Facet normals whose cosine is below this (angle of 0.5 rad, 28.6 degrees) make a sharp edge. paper: "ignored" edges
-// are those of low dihedral angle; the published code's threshold.
+// are those of low dihedral angle; the published code's threshold. An edge of a facet without area is never sharp.
 inline constexpr double kFeatureCos = 0.87758256189037276;
 
 struct FeatureOptions {
@@ -62,9 +62,10 @@ struct TriMesh {
     Index turned_facets = 0;       // facets whose direction differs from the file's
     Index isolated_vertices = 0;   // vertices without facet, kept in the numbering
     Index flat_facets = 0;         // facets without area
-    Index features_given = 0;      // feature edges of the file, as listed; 0 where they are detected
-    Index features_kept = 0;       // distinct edges with feature[h] set
-    Index features_off = 0;        // those of the file, as listed, that are not edges of the surface
+    Index features_given =
+        0;   // feature edges of the file, as listed (an OBJ polyline of n vertices has n - 1); 0 where they are detected
+    Index features_kept = 0;   // distinct edges with feature[h] set
+    Index features_off = 0;    // those of the file, as listed, that are not edges of the surface
 
     Index vertices() const { return static_cast<Index>(points.size()); }
     Index facets() const { return static_cast<Index>(normal.size()); }

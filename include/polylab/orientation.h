@@ -19,7 +19,9 @@ struct Orientation {
 };
 
 // `origin` has three vertices per facet, `opposite` pairs the half-edges 3f+k of the edges, whatever direction their
-// facets have. Throws InputError where a component can't be oriented. A component without volume stays as it is.
+// facets have. Throws InputError where a component can't be oriented. Facets are first turned like the
+// smallest one of their component; then the whole is turned if its signed volume (about its first vertex) has the wrong sign:
+// negative, or positive where an odd number of components contain it. Without volume it stays like its smallest facet.
 // O(n) for the volumes; nesting: boxes of all pairs of components that overlap along x, then one point location
 // for each component whose box is inside another's.
 Orientation orient(const std::vector<Vec3>& points, const std::vector<Index>& origin, const std::vector<Index>& opposite);

@@ -48,6 +48,9 @@ std::vector<Index> vertices_of(const TriMesh& mesh, const Halfedges& path);   //
 // number first, beginning at the start of that boundary.
 std::vector<Halfedges> contours(const TriMesh& mesh, const State& state, Index chart);
 
+// A contour cut into the boundaries it consists of, in order.
+std::vector<Halfedges> runs_of(const State& state, const Halfedges& contour);
+
 // Sum of the facets' unit normals.
 Vec3 mean_normal(const TriMesh& mesh, const std::vector<Index>& facets);
 

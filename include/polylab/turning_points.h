@@ -27,15 +27,21 @@ struct Chain {
     Index size() const { return static_cast<Index>(change.size()); }
 };
 
-// The chain of half-edges given in order, along an axis.
+// The chain of half-edges given in order, along an axis. With e = unit vector of an edge, d = e[axis]:
+//   u = well_cost(d, 0.9, 100);   d > 0: cost[0] = u, cost[1] = 0;   else: cost[0] = 0, cost[1] = u
+//   change = bell_cost(e . e' - 1, 1.0, 100), e' that of the next edge (after the last one, of the first)
 Chain make_chain(const TriMesh& mesh, const std::vector<Index>& halfedges, int axis);
 
 // The turning-points of least energy: positions i where edge i goes the other way than edge i-1 (0 only if closed),
-// increasing. tie: fewest, then smallest sum of vertices, then the last edge along +axis. O(n)
+// increasing. `closed` is Boundary::closed(), also through one corner: then position 0 is that corner. O(n)
+// tie: fewest, then smallest sum of vertices. What is left between equals goes so: the open chain by dynamic programming
+// from the first edge on, keeping the direction of the edge before where turning is no better, the last edge along +axis;
+// a closed one the first best of (first edge, last edge) along ++, -+, +-, --.
 std::vector<Index> chain_turns(const Chain& chain, bool closed);
 
-// The same by the published rules: an open chain, ties go to +axis from the end backwards, but all -axis wins if it is as
-// good; a closed one has 0 appended last if its ends differ.
+// The same by the published rules: an open chain; ties go to +axis, for the last edge and for each edge before, from the
+// end backwards; but if all edges along -axis have the least energy too, there is no turning-point. If `closed`, position 0
+// is appended last where the first and the last edge go different ways.
 std::vector<Index> published_chain_turns(const Chain& chain, bool closed);
 
 struct TurningPoint {
@@ -53,15 +59,20 @@ struct TurningPoints {
 // Boundaries of one edge and boundaries between opposite labels have none. O(length of all boundaries)
 TurningPoints find_turning_points(const TriMesh& mesh, const LabelingGraph& graph);
 
-// As the published code counts them: boundaries traversed in the order, and from the starts, in which it discovers them
-// (depth-first from corners, as Section 3.2 of the paper has it).
+// As the published code counts them: each boundary traversed in the direction in which that code discovers it. It goes over
+// all half-edges h by number. Where from(h) is a corner with a ring in the fan of h, and h is not a border of a ring recorded
+// there, the borders of that ring are pushed on a stack, counter-clockwise, beginning behind h (h itself last); the ring is
+// recorded if it is the first of its corner. While the stack is not empty, the top border is taken off: if its boundary is
+// not traversed yet, it is, starting there; at its other end, unless that ring is recorded, it is, and its borders are
+// pushed, beginning behind next(last half-edge). Boundaries without corner keep their start and direction.
 TurningPoints published_turning_points(const TriMesh& mesh, const LabelingGraph& graph);
 
-// Whether the turning-point leans to the left of its boundary: to the side with the larger sum of facet angles.
-// tie: equal sums lean left
+// Whether the turning-point leans to the left of its boundary: to the side with the larger sum of facet angles, each
+// angle_cost() of the two edges of a facet at the vertex.   tie: equal sums lean left
 bool leans_left(const TriMesh& mesh, const LabelingGraph& graph, const TurningPoint& t);
 
-// The corner of the boundary that is nearer along it; kNone for closed boundaries without corner. tie: the end
+// The corner of the boundary that is nearer along it, by the sums of the edges' lengths before and after the turning-point, in
+// the boundary's order, in steps() of mean edges. kNone for closed boundaries without corner. tie: the end
 Index closest_corner(const TriMesh& mesh, const LabelingGraph& graph, const TurningPoint& t);
 
 }   // namespace polylab
