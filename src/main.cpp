@@ -150,7 +150,7 @@ int run_label(const Arguments& arguments) {
         labels = naive_labeling(mesh);
     else
         labels = graphcut_labeling(mesh, initial, locks);
-    for (std::size_t f = 0; f < locks.size(); f++)
+    for (std::size_t f = 0; f < locks.size(); f++)   // the other methods honour them too
         if (locks[f] != kNoLabel) labels[f] = locks[f];
     console.detail("initial labeling after " + watch.seconds());
     std::string trace;

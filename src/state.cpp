@@ -27,6 +27,8 @@ Judge::Judge(const TriMesh& mesh, bool allow_opposite, Labeling locks)
 State Judge::state(Labeling labels) const {
     State state;
     state.labels = std::move(labels);
+    for (std::size_t f = 0; f < locks_.size(); f++)
+        if (locks_[f] != kNoLabel) state.labels[f] = locks_[f];
     state.graph.allow_opposite = allow_opposite_;
     derive(state);
     return state;

@@ -85,7 +85,6 @@ Patch chart_beside(const TriMesh& mesh, const State& state, Index chart, const S
     const Halfedges segment(polyedge.begin(), polyedge.begin() + static_cast<std::ptrdiff_t>(edges));
     const Index support = state.graph.neighbour(state.graph.boundary[segment[0]], chart);
     const Label label = state.graph.charts[chart].label, support_label = state.graph.charts[support].label;
-    if (!orthogonal(label, support_label)) return {};
 
     const Index far_end = mesh.opposite[segment.back()];
     const Vec3 positive = direction(label);

@@ -42,10 +42,10 @@ std::vector<Index> strip_beside(const TriMesh& mesh, const State& state, const H
 // Whether some boundary passes the origin of the half-edge, within its fan.
 bool on_border(const TriMesh& mesh, const State& state, Index outgoing);
 
-std::vector<Index> vertices_of(const TriMesh& mesh, const Halfedges& path);   // of all its edges, once each along the path
+std::vector<Index> vertices_of(const TriMesh& mesh, const Halfedges& path);   // in order; a closed path ends with its first one
 
 // The half-edges around a chart, the chart at their left, one list per contour: the contour of its boundary of smallest
-// number first, beginning at the start of that boundary.
+// number first, beginning with that boundary.
 std::vector<Halfedges> contours(const TriMesh& mesh, const State& state, Index chart);
 
 // A contour cut into the boundaries it consists of, in order.

@@ -47,7 +47,8 @@ inline constexpr double kLossUnit = 1e6;   // the loss of a facet whose fidelity
 
 class Judge {
 public:
-    // Locked facets keep the labels of `locks` whatever a patch says; an empty list locks none, kNoLabel leaves free.
+    // Locked facets have the labels of `locks` whatever a labeling or a patch says; an empty list locks none, kNoLabel leaves
+    // free.
     explicit Judge(const TriMesh& mesh, bool allow_opposite = true, Labeling locks = {});
 
     const TriMesh& mesh() const { return mesh_; }
