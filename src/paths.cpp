@@ -252,7 +252,7 @@ std::vector<Label> labels_by_fit(const Vec3& normal) {
 Label best_label(const Vec3& v, int forbidden_axis, int other_forbidden_axis) {
     for (const Label l : labels_by_fit(v))
         if (axis(l) != forbidden_axis && axis(l) != other_forbidden_axis) return l;
-    return kNoLabel;
+    return kNoLabel;   // unreachable: two axes leave two labels
 }
 
 Patch relabel(const std::vector<Index>& facets, Label label) {

@@ -535,6 +535,13 @@ TEST_CASE("io: labels are as many as facets, and within range") {
     }
 }
 
+TEST_CASE("io: quadrilaterals are refused, an empty block of them is not") {
+    const std::string head = "MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 0 0\nQuadrilaterals\n";
+    CHECK(read_medit(head + "0\nEnd\n", "q.mesh").points.size() == 1);
+    CHECK(error_of([&] { read_medit(head + "1\n1 1 1 1 0\nEnd\n", "q.mesh"); }) ==
+          "q.mesh:7: expected triangles, found 'Quadrilaterals'");
+}
+
 TEST_CASE("io: no locale changes a file") {
     struct Comma : std::numpunct<char> {
         char do_decimal_point() const override { return ','; }

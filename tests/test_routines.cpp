@@ -1,4 +1,5 @@
 // The routines: never worse than their start, the same every time, and good enough for small shapes and one CAD part.
+#include "polylab/polylab.h"
 #include "polylab/routines.h"
 
 #include "polylab/initial_labeling.h"
@@ -419,4 +420,9 @@ TEST_CASE("routines: a CAD part gets a valid labeling, no worse than its graph-c
     const Run r = run(mesh, graphcut_labeling(mesh));
     check_run(mesh, r);
     CHECK(r.result.graph.valid());
+}
+
+TEST_CASE("routines: the library's one call is the graph-cut and both routines") {
+    const TriMesh mesh = build_mesh(shapes::l_shape());
+    CHECK(label_polycube(mesh) == run_routines(mesh, graphcut_labeling(mesh)).labels);
 }

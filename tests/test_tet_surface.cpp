@@ -248,6 +248,14 @@ TEST_CASE("tet surface: errors in a surface map name the line and what was found
     }
 }
 
+TEST_CASE("tet surface: feature edges out of range are refused") {
+    MeshData data;
+    data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    data.tets = {0, 1, 2, 3};
+    data.edges = {0, 4};   // vertices are 0..3
+    CHECK_THROWS_AS(extract_surface(data), InputError);
+}
+
 TEST_CASE("tet surface: memory is reserved by the size of the map, not by a count in it") {
     const auto peak = [] {   // largest size of the address space so far, in KiB; 0 where the system does not tell
         std::ifstream in("/proc/self/status");

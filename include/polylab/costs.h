@@ -24,8 +24,9 @@ std::int32_t angle_cost(double c);
 // The angle between two vectors in microradians; 0 where one of them has no length.
 std::int32_t angle_cost(const Vec3& a, const Vec3& b);
 
-// x in steps of 2^-30, rounded. Choices between directions, labels or lengths compare these: on a symmetric part rounding
-// noise would decide between equals; in steps they are equal, and a rule decides.   tie: by order, wherever it is used
+// x in steps of 2^-30, rounded to the nearest, halves up. Choices between directions, labels or lengths compare these: on a
+// symmetric part rounding noise would decide between equals; in steps they are equal, and a rule decides.   tie: by order,
+// wherever it is used
 std::int64_t steps(double x);
 
 // Sine and cosine of an angle of at most one turn (error below 1e-13), by their Taylor series: + * / only, so the same bits

@@ -53,7 +53,7 @@ struct TriMesh {
     std::vector<Index> opposite;   // half-edge -> the other half-edge of its edge, never kNone
     std::vector<Vec3> normal;      // facet -> unit normal, outward; zero where the facet has no area
     std::vector<char> feature;     // half-edge -> 1 on a kept feature edge (both half-edges have it)
-    double mean_edge = 0;          // mean length of the edges, the unit of lengths of all operators
+    double mean_edge = 0;          // mean length of all half-edges, added by number: the unit of lengths of all operators
 
     // What construction met, for messages and statistics.
     Index components = 0;          // edge-connected

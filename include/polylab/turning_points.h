@@ -35,8 +35,8 @@ Chain make_chain(const TriMesh& mesh, const std::vector<Index>& halfedges, int a
 // The turning-points of least energy: positions i where edge i goes the other way than edge i-1 (0 only if closed),
 // increasing. `closed` is Boundary::closed(), also through one corner: then position 0 is that corner. O(n)
 // tie: fewest, then smallest sum of vertices. What is left between equals goes so: the open chain by dynamic programming
-// from the first edge on, keeping the direction of the edge before where turning is no better, the last edge along +axis;
-// a closed one the first best of (first edge, last edge) along ++, -+, +-, --.
+// from the first edge on, keeping the direction of the edge before where turning is no better in (energy, turning-points, sum),
+// the last edge along +axis; a closed one the first best of (first edge, last edge) along ++, -+, +-, --.
 std::vector<Index> chain_turns(const Chain& chain, bool closed);
 
 // The same by the published rules: an open chain; ties go to +axis, for the last edge and for each edge before, from the
@@ -61,10 +61,11 @@ TurningPoints find_turning_points(const TriMesh& mesh, const LabelingGraph& grap
 
 // As the published code counts them: each boundary traversed in the direction in which that code discovers it. It goes over
 // all half-edges h by number. Where from(h) is a corner with a ring in the fan of h, and h is not a border of a ring recorded
-// there, the borders of that ring are pushed on a stack, counter-clockwise, beginning behind h (h itself last); the ring is
-// recorded if it is the first of its corner. While the stack is not empty, the top border is taken off: if its boundary is
-// not traversed yet, it is, starting there; at its other end, unless that ring is recorded, it is, and its borders are
-// pushed, beginning behind next(last half-edge). Boundaries without corner keep their start and direction.
+// there, the borders of that ring are pushed on a stack, counter-clockwise, beginning with the first border after h (h itself
+// last, if it is one); the ring is recorded if its corner has none yet. While the stack is not empty, the top border is taken
+// off: if its boundary is not traversed yet, it is, starting there (against its own direction: the opposites of its
+// half-edges in reverse order); at its other end, unless that ring is recorded, the ring is recorded and its borders are
+// pushed, beginning with the first one after next(last half-edge). Boundaries without corner keep their start and direction.
 TurningPoints published_turning_points(const TriMesh& mesh, const LabelingGraph& graph);
 
 // Whether the turning-point leans to the left of its boundary: to the side with the larger sum of facet angles, each
@@ -72,7 +73,8 @@ TurningPoints published_turning_points(const TriMesh& mesh, const LabelingGraph&
 bool leans_left(const TriMesh& mesh, const LabelingGraph& graph, const TurningPoint& t);
 
 // The corner of the boundary that is nearer along it, by the sums of the edges' lengths before and after the turning-point, in
-// the boundary's order, in steps() of mean edges. kNone for closed boundaries without corner. tie: the end
+// the boundary's order: the start where steps(before / mean_edge) < steps(after / mean_edge). kNone for closed boundaries without
+// corner. tie: the end
 Index closest_corner(const TriMesh& mesh, const LabelingGraph& graph, const TurningPoint& t);
 
 }   // namespace polylab
