@@ -11,13 +11,10 @@ namespace {
 
 constexpr Index kShortestRun = 3;   // edges; shorter ones have nothing to straighten
 
-Index edge_number(const LabelingGraph& graph, const TurningPoint& t, Index offset) {
-    const Range r = graph.boundaries[t.boundary].halfedges;
-    const Index n = r.size();
-    return graph.halfedges[r.first + (t.position + offset + n) % n];
+// The half-edge of the boundary that leaves the turning-point.
+Index outgoing(const State& state, const TurningPoint& t) {
+    return state.graph.halfedges[state.graph.boundaries[t.boundary].halfedges.first + t.position];
 }
-
-Index outgoing(const State& state, const TurningPoint& t) { return edge_number(state.graph, t, 0); }
 
 void propose_strips(Proposals& proposals, const TriMesh& mesh, const State& state, const Halfedges& path,
                     std::initializer_list<Label> unwanted) {
@@ -152,10 +149,6 @@ Patch redrawn(const TriMesh& mesh, const State& state, const Boundary& boundary,
 }
 
 }   // namespace
-
-bool beside_feature(const TriMesh& mesh, const State& state, const TurningPoint& t) {
-    return mesh.feature[edge_number(state.graph, t, 0)] || mesh.feature[edge_number(state.graph, t, -1)];
-}
 
 Proposals join_turning_points(const TriMesh& mesh, const State& state, const TurningPoint& t) {
     Proposals proposals;

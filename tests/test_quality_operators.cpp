@@ -258,20 +258,6 @@ TEST_CASE("quality operators: the shapes are valid and have the turning-points t
     check(ragged(), 0, 0);
 }
 
-TEST_CASE("quality operators: beside a feature edge") {
-    const Vec3 tip = {8, 8, 4};
-    const auto beside = [&](const Shape& shape) {
-        const Scene scene(shape);
-        return beside_feature(scene.mesh, scene.state, scene.turning_point_at(tip));
-    };
-    CHECK(beside(creased(undercut())));
-    CHECK_FALSE(beside(undercut()));
-    // Of its boundary the edge before or the edge after is enough; the ridge along z is not of the boundary.
-    CHECK(beside(with_features(creased(undercut()), [](const Vec3& middle) { return middle == Vec3{8, 4, 4}; })));
-    CHECK(beside(with_features(creased(undercut()), [](const Vec3& middle) { return middle == Vec3{7.5, 7, 4}; })));
-    CHECK_FALSE(beside(with_features(creased(undercut()), [](const Vec3& middle) { return middle.z == 2; })));
-}
-
 // ---- join turning-points (Figure 15)
 
 TEST_CASE("quality operators: a chart along lost feature edges joins two turning-points") {

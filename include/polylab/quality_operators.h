@@ -14,11 +14,11 @@ Proposals join_turning_points(const TriMesh& mesh, const State& state, const Tur
 // Section 6.4.3, Figure 16: the boundary that comes next at the closest corner is re-traced so that the corner moves onto
 // the turning-point; what lies between takes the label beyond that boundary. Variants: along a lost feature edge or a
 // greedy path; the whole region or a thin strip; the other side, the other corner.
-// differs: not only for turning-points on feature edges; the routine asks for these first.
+// differs: for all turning-points, where the paper pulls to those on feature edges only; what helps is kept, wherever it is.
 Proposals pull_closest_corner(const TriMesh& mesh, const State& state, const TurningPoint& t);
 
 // Section 6.4.4, Figure 17: the facets around the turning-point take the label of the side with the larger angle.
-// Variants: one, two or four rings; the other side's label.
+// Variants: one, two or four rings; the other side's label (chart propagation, Section 6.3.2).
 Proposals move_boundary_near(const TriMesh& mesh, const State& state, const TurningPoint& t);
 
 // Section 6.4.5: the boundary is re-drawn between its ends, each run between kept feature edges on its own, by the edges
@@ -31,8 +31,5 @@ Proposals smooth_boundaries(const TriMesh& mesh, const State& state);
 // Directional path (Gregson 2011, Evocube), made deterministic: a chart along a path that leaves the turning-point along an
 // axis through one of its two charts. Variants: direction, side, label, width.
 Proposals directional_path(const TriMesh& mesh, const State& state, const TurningPoint& t);
-
-// Whether an edge of the boundary beside the turning-point is a kept feature edge.
-bool beside_feature(const TriMesh& mesh, const State& state, const TurningPoint& t);
 
 }   // namespace polylab
