@@ -194,6 +194,12 @@ std::vector<Index> strip_beside(const TriMesh& mesh, const State& state, const H
     return strip;
 }
 
+std::vector<Index> facets_beside(const TriMesh& mesh, const State& state, const Halfedges& run, Index chart) {
+    std::vector<Index> facets;
+    for (const Index h : run) facets.push_back(state.graph.chart[mesh.left(h)] == chart ? mesh.left(h) : mesh.right(h));
+    return facets;
+}
+
 std::vector<Index> vertices_of(const TriMesh& mesh, const Halfedges& path) {
     std::vector<Index> vertices;
     for (const Index h : path)

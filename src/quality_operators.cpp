@@ -3,13 +3,15 @@
 #include "polylab/costs.h"
 
 #include <algorithm>
-#include <array>
 
 namespace polylab {
 
 namespace {
 
-constexpr Index kShortestRun = 3;   // edges; shorter ones have nothing to straighten
+constexpr Index kShortestRun = 3;          // edges; shorter ones have nothing to straighten
+constexpr int kStripWidths[] = {1, 3};     // rings of facets of a chart along a path
+constexpr int kThinWidth = 2;              // of the thin chart that a pull may leave
+constexpr int kMoveWidths[] = {1, 2, 4};   // around a turning-point
 
 // The half-edge of the boundary that leaves the turning-point.
 Index outgoing(const State& state, const TurningPoint& t) {
@@ -18,7 +20,7 @@ Index outgoing(const State& state, const TurningPoint& t) {
 
 void propose_strips(Proposals& proposals, const TriMesh& mesh, const State& state, const Halfedges& path,
                     std::initializer_list<Label> unwanted) {
-    for (const int width : {1, 3}) {
+    for (const int width : kStripWidths) {
         for (const Halfedges& side : {path, reversed(mesh, path)}) {
             const std::vector<Index> strip = strip_beside(mesh, state, side, width);
             if (strip.empty()) continue;
@@ -71,16 +73,14 @@ std::vector<Pull> pulls(const TriMesh& mesh, const State& state, const TurningPo
 
 void propose_pull(Proposals& proposals, const TriMesh& mesh, const State& state, const Pull& pull, const Halfedges& path) {
     if (path.empty()) return;
-    std::vector<Index> seeds;
-    for (const Index h : pull.to_corner)
-        seeds.push_back(state.graph.chart[mesh.left(h)] == pull.chart ? mesh.left(h) : mesh.right(h));
+    const std::vector<Index> seeds = facets_beside(mesh, state, pull.to_corner, pull.chart);
     const std::vector<Index> region = region_between(mesh, state, pull.chart, seeds, path);
     if (region.empty()) return;
     proposals.push_back(relabel(region, pull.label));
     // The thin chart: the part of the region beside the path.
     std::vector<char> in(mesh.facets(), 0);
     for (const Index f : region) in[f] = 1;
-    std::vector<Index> strip = band(mesh, state, vertices_of(mesh, path), pull.chart, 2);
+    std::vector<Index> strip = band(mesh, state, vertices_of(mesh, path), pull.chart, kThinWidth);
     strip.erase(std::remove_if(strip.begin(), strip.end(), [&](Index f) { return !in[f]; }), strip.end());
     if (strip.size() < region.size()) proposals.push_back(relabel(strip, pull.label));
 }
@@ -129,8 +129,8 @@ Halfedges straight_path(const TriMesh& mesh, const State& state, const Boundary&
     return path;
 }
 
-// What changes when the boundary runs along `path` instead of `run`: facets between the two take the label of the side on
-// which they come to lie.
+// What changes when the boundary runs along `path` instead of its present way: facets between the two take the label of the side
+// on which they come to lie.
 Patch redrawn(const TriMesh& mesh, const State& state, const Boundary& boundary, const Halfedges& path) {
     Patch patch;
     for (const bool left : {true, false}) {
@@ -180,8 +180,8 @@ Proposals move_boundary_near(const TriMesh& mesh, const State& state, const Turn
     const bool left = leans_left(mesh, state.graph, t);
     for (const Index to : {left ? boundary.left : boundary.right, left ? boundary.right : boundary.left}) {
         const Index from = to == boundary.left ? boundary.right : boundary.left;
-        for (const int rings : {1, 2, 4}) {
-            const std::vector<Index> facets = band(mesh, state, {t.vertex}, from, rings);
+        for (const int width : kMoveWidths) {
+            const std::vector<Index> facets = band(mesh, state, {t.vertex}, from, width);
             if (!facets.empty()) proposals.push_back(relabel(facets, state.graph.charts[to].label));
         }
     }

@@ -101,8 +101,7 @@ Patch chart_beside(const TriMesh& mesh, const State& state, Index chart, const S
     };
     if (!add_wall(spot.vertex) || !add_wall(mesh.to(segment.back())) || walls.empty()) return {};
 
-    std::vector<Index> seeds;
-    for (const Index h : segment) seeds.push_back(state.graph.chart[mesh.left(h)] == support ? mesh.left(h) : mesh.right(h));
+    const std::vector<Index> seeds = facets_beside(mesh, state, segment, support);
     const std::vector<Index> region = region_between(mesh, state, support, seeds, walls);
     return relabel(region, best_label(mean_normal(mesh, region), axis(label), axis(support_label)));
 }

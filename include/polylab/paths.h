@@ -32,6 +32,9 @@ Halfedges lost_features_at(const TriMesh& mesh, const State& state, Index outgoi
 std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index chart, const std::vector<Index>& seeds,
                                   const Halfedges& walls);
 
+// The facets of a chart at its side of a run of its border, one per half-edge, whichever way the run goes.
+std::vector<Index> facets_beside(const TriMesh& mesh, const State& state, const Halfedges& run, Index chart);
+
 // Facets of a chart (kNone: of any) that touch the given vertices, then those that touch these, `rings` times.
 std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart, int rings);
 
