@@ -51,12 +51,15 @@ bool expand(const PottsEnergy& energy, MaxFlow& network, Label alpha, Labeling& 
     return true;
 }
 
-Labeling alpha_expansion(const PottsEnergy& energy, Labeling start, int cycles) {
+Labeling alpha_expansion(const PottsEnergy& energy, Labeling start, int cycles, const Stop& stop) {
     MaxFlow network(static_cast<Index>(energy.data.size()), energy.ends);
     bool changed = true;
     for (int cycle = 0; cycle < cycles && changed; cycle++) {
         changed = false;
-        for (Label alpha = 0; alpha < kLabels; alpha++) changed |= expand(energy, network, alpha, start);
+        for (Label alpha = 0; alpha < kLabels; alpha++) {
+            if (stop && stop()) return start;
+            changed |= expand(energy, network, alpha, start);
+        }
     }
     return start;
 }

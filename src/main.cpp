@@ -7,6 +7,7 @@
 #include "polylab/stages.h"
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <new>
 
@@ -61,6 +62,22 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// The first SIGINT or SIGTERM asks the run to end with what it has, the second one kills. A signal that whoever started the
+// program had ignored (as shells do for what runs in the background) stays ignored.
+volatile std::sig_atomic_t signalled = 0;
+constexpr int kSignals[] = {SIGINT, SIGTERM};
+
+void note_signal(int) {
+    signalled = 1;
+    for (const int s : kSignals)
+        if (std::signal(s, SIG_DFL) == SIG_IGN) std::signal(s, SIG_IGN);
+}
+void listen_to_signals() {
+    for (const int s : kSignals)
+        if (std::signal(s, note_signal) == SIG_IGN) std::signal(s, SIG_IGN);
+}
+bool interrupted() { return signalled != 0; }
+
 const Option kOutput = {"-o", "FILE", "where the result goes; standard output without this, or with -"};
 const Option kFeatures = {"--features", "SOURCE",
                           "file: the sharp ones among the file's feature edges (default)\n"
@@ -114,6 +131,7 @@ Labeling run_full(const TriMesh& mesh, Labeling start, Labeling locks, const Arg
     options.validity = routine != "monotonicity";
     options.monotonicity = routine != "validity";
     options.locks = std::move(locks);
+    options.stop = interrupted;
     options.trace = [&](const Step& step) {
         trace += trace_line(step);
         if (step.kept && !step.in_sequence)
@@ -141,6 +159,7 @@ int run_label(const Arguments& arguments) {
     initial.angle = arguments.number("--angle", initial.angle, -1, 1);
 
     const TriMesh mesh = read_part(arguments, console);
+    listen_to_signals();   // before this there is nothing to save
     console.detail("read and built in " + watch.seconds());
     Labeling locks, labels;
     if (arguments.has("--lock")) locks = read_labels(arguments.get("--lock"), mesh.facets(), /* allow_free= */ true);
@@ -149,7 +168,7 @@ int run_label(const Arguments& arguments) {
     else if (method == "naive")
         labels = naive_labeling(mesh);
     else
-        labels = graphcut_labeling(mesh, initial, locks);
+        labels = graphcut_labeling(mesh, initial, locks, interrupted);
     for (std::size_t f = 0; f < locks.size(); f++)   // the other methods honour them too
         if (locks[f] != kNoLabel) labels[f] = locks[f];
     console.detail("initial labeling after " + watch.seconds());
@@ -165,6 +184,10 @@ int run_label(const Arguments& arguments) {
     console.say((output == "-" ? "labels written" : "labels written to " + output) + " after " + watch.seconds());
     const std::string advice = hint(mesh);
     if (status_of(result.statistics) == kNotValid && !advice.empty()) console.say("hint: " + advice);
+    if (interrupted()) {
+        console.warn("interrupted: these are the best labels so far");
+        return kNotValid;
+    }
     return method == "full" ? status_of(result.statistics) : kDone;
 }
 
@@ -321,7 +344,8 @@ std::string overview() {
            "  polylab label part.obj -o labels.txt      label a part\n"
            "  polylab explain part.obj labels.txt       what is wrong with the result, if anything\n"
            "  polylab label --help                      all options of a command\n\n"
-           "exit status: 0 done (and valid), 1 done but not valid, 2 no result (wrong use, wrong input, output can't be written)\n";
+           "exit status: 0 done (and valid), 1 done but not valid, or interrupted (the best labels so far are written),\n"
+           "2 no result (wrong use, wrong input, output can't be written)\n";
 }
 
 int run(const std::vector<std::string>& words) {

@@ -93,6 +93,10 @@ private:
         }
     }
 
+    // Whether the run has tried its share, or was told to end.
+    bool over() { return proposals_tried_ >= kMostProposals || stopped(); }
+    bool stopped() { return options_.stop && options_.stop(); }
+
     // ---- one step
 
     void set_limit(double mean_fidelity) { loss_limit_ = static_cast<std::int64_t>(mean_fidelity * kLossUnit * mesh_.facets()); }
@@ -105,9 +109,10 @@ private:
     // preferred to a sweeping one that repairs more.   tie: the first
     bool once(const char* operation, Index element, const Proposals& proposals) {
         proposals_tried_ += static_cast<Index>(proposals.size());
-        if (proposals.empty()) return false;
+        if (proposals.empty() || stopped()) return false;
         Step step{operation, element, in_sequence_, false, static_cast<Index>(proposals.size()), 0, state_.score, {}};
         for (const Patch& patch : proposals) {
+            if (step.facets > 0 && stopped()) break;
             judge_.apply(state_, patch, trial_);
             const bool better = improves(trial_, state_), first = step.facets == 0;
             const bool best =
@@ -178,9 +183,9 @@ private:
     }
 
     // Whether the operator has not been tried at this place in the same surroundings and under this limit; notes it.
-    // No place is left once the run has tried its share.
+    // No place is left once the run is over.
     bool untried(const char* operation, Index place, const std::vector<Index>& charts) {
-        if (proposals_tried_ >= kMostProposals) return false;
+        if (over()) return false;
         return tried_.insert({std::string(operation) + (in_sequence_ ? "/" : ""), place, surroundings(charts), loss_limit_})
             .second;
     }
@@ -237,7 +242,7 @@ private:
     // broke, and the best of these ends is kept if it improves the score.
     void for_each_in_sequence(const ValidityOperator& o) {
         for (Index i = 0; i < count(state_, o.kind); i++) {
-            if (!invalid(state_, o.kind, i) || proposals_tried_ >= kMostProposals) continue;
+            if (!invalid(state_, o.kind, i) || over()) continue;
             const Step step = sequence(o.propose(mesh_, state_, i));
             if (options_.trace && step.proposals > 0)
                 options_.trace({std::string("sequence-of-") + o.name, i, false, step.kept, step.proposals, step.facets,
@@ -254,6 +259,7 @@ private:
                 if (invalid(state_, kind, i)) invalid_before_[static_cast<int>(kind)].insert(name(state_, kind, i));
         in_sequence_ = true;
         for (const Patch& patch : proposals) {
+            if (stopped()) break;
             proposals_tried_++;
             judge_.apply(before, patch, state_);
             for (const ValidityOperator& o : kValidityOperators) for_each_invalid(o);

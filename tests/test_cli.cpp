@@ -485,6 +485,34 @@ TEST_CASE("cli: a result replaces an older file as a whole") {
     CHECK(scratch.read("l.txt") == kNaive);
 }
 
+TEST_CASE("cli: an interrupted run writes its best labels whole, with status 1") {
+    // Noise on 24576 facets keeps the routines busy for long; the line that --verbose says before them is waited for.
+    const Scratch scratch;
+    MeshData part = cube(8);
+    for (int i = 0; i < 3; i++) part = shapes::refined(part);
+    const Index facets = static_cast<Index>(part.triangles.size() / 3);
+    scratch.write("part.obj", obj_text(part));
+    shapes::Lcg random(1);
+    std::string noise;
+    for (Index f = 0; f < facets; f++) noise += std::to_string(random.below(kLabels)) + " ";
+    scratch.write("noise.txt", noise);
+    const auto signalled = [&](const std::string& kill) {
+        return scratch.run(
+            "label part.obj --init noise.txt -o l.txt --verbose & pid=$!\n"
+            "until grep -q 'initial labeling' ../err.$PPID; do sleep 0.01; done; " +
+            kill + "; wait $pid");
+    };
+    const Result r = signalled("kill -TERM $pid");
+    CHECK(r.status == 1);
+    CHECK(r.err.find("interrupted: these are the best labels so far\n") != std::string::npos);
+    CHECK(read_labels(scratch.path("l.txt"), facets).size() == static_cast<std::size_t>(facets));
+    CHECK(scratch.entries() == 5);   // with cube.obj and naive.txt
+    // The second one ends at once, and leaves what was there.
+    scratch.write("l.txt", "old");
+    CHECK(signalled("kill -TERM $pid; sleep 0.1; kill -TERM $pid").status != 0);
+    CHECK((scratch.read("l.txt") == "old" || read_labels(scratch.path("l.txt"), facets).size() > 0));
+}
+
 // ---- tetrahedra ----
 
 TEST_CASE("cli: a tet mesh, its surface, and labels for its tetrahedra") {

@@ -310,3 +310,21 @@ TEST_CASE("initial labeling: graph-cut is never worse than its start and any sin
         for (Label l = 0; l < kLabels; l++) CHECK(reached <= energy(Labeling(mesh.facets(), l)));
     }
 }
+
+TEST_CASE("initial labeling: a graph-cut that is stopped gives no more energy than the naive labels") {
+    const TriMesh mesh = build_mesh(shapes::refined(shapes::l_shape()));
+    const PottsEnergy energy = labeling_energy(mesh);
+    Labeling locks(mesh.facets(), kNoLabel);
+    locks[3] = 5;
+    for (int most = 0; most < 14; most++) {
+        int asked = 0;
+        const Labeling labels = graphcut_labeling(mesh, {}, {}, [&] { return asked++ >= most; });
+        CHECK(energy(labels) <= energy(naive_labeling(mesh)));
+        asked = 0;
+        CHECK(graphcut_labeling(mesh, {}, locks, [&] { return asked++ >= most; })[3] == 5);
+    }
+    int asked = 0;
+    graphcut_labeling(mesh, {}, {}, [&] { return asked++ < 0; });
+    CHECK(asked > 6);   // before each move
+    CHECK(graphcut_labeling(mesh, {}, {}, [] { return false; }) == graphcut_labeling(mesh));
+}

@@ -426,3 +426,23 @@ TEST_CASE("routines: the library's one call is the graph-cut and both routines")
     const TriMesh mesh = build_mesh(shapes::l_shape());
     CHECK(label_polycube(mesh) == run_routines(mesh, graphcut_labeling(mesh)).labels);
 }
+
+TEST_CASE("routines: a run that is stopped ends with the best labeling so far") {
+    const TriMesh mesh = build_mesh(refined(shapes::l_shape()));
+    Lcg random(7);
+    Labeling noise(mesh.facets());
+    for (Label& l : noise) l = static_cast<Label>(random.below(kLabels));
+    const State start = Judge(mesh).state(noise);
+    Score last = start.score;
+    for (const int most : {0, 1, 2, 5, 10, 100, 1000}) {
+        int asked = 0;
+        RoutineOptions options;
+        options.stop = [&] { return asked++ >= most; };
+        const State result = run_routines(mesh, noise, options);
+        CHECK_FALSE(last < result.score);   // more work, no worse
+        CHECK(result.score == Judge(mesh).state(result.labels).score);
+        if (most == 0) CHECK(result.labels == noise);
+        if (most == 100) CHECK(result.score < start.score);
+        last = result.score;
+    }
+}

@@ -29,7 +29,8 @@ struct PottsEnergy {
 // construction gives the same move, since the minimum cut with the largest source side is unique.
 bool expand(const PottsEnergy& energy, MaxFlow& network, Label alpha, Labeling& labels);
 
-// Cycles over the labels 0..5 in this order, at most `cycles`, ending early after a cycle without change.
-Labeling alpha_expansion(const PottsEnergy& energy, Labeling start, int cycles = 2);
+// Cycles over the labels 0..5 in this order, at most `cycles`, ending early after a cycle without change, or before the
+// next move once `stop` says so.
+Labeling alpha_expansion(const PottsEnergy& energy, Labeling start, int cycles = 2, const Stop& stop = {});
 
 }   // namespace polylab

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -33,6 +34,9 @@ private:
     std::string message_;
     Index line_ = 0;
 };
+
+// Asked between steps of long work: true ends it early. It stays true once it is. Empty: never.
+using Stop = std::function<bool()>;
 
 // Every comparison of floating-point numbers that decides a label reports by how much it was decided; 0 is an exact tie,
 // which goes by a rule. Nothing happens but in the tie audit (tools/tie_audit.cpp), which is built with the macro.

@@ -41,6 +41,9 @@ PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options =
 
 // Alpha-expansion of that energy, two cycles from +X everywhere. O(n) but for the max-flow.
 // Facets with a label in `locks` (empty: none) get it: any other costs 100000 more.
-Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options = {}, const Labeling& locks = {});
+// Once `stop` says so, which is asked before each of the twelve moves: the labels so far or the naive ones, whichever have
+// less energy.
+Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options = {}, const Labeling& locks = {},
+                           const Stop& stop = {});
 
 }   // namespace polylab

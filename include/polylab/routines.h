@@ -27,9 +27,10 @@ struct RoutineOptions {
     bool allow_opposite = true;
     Labeling locks;                           // facet -> label that it keeps, or kNoLabel; empty: none
     std::function<void(const Step&)> trace;   // called after each step, if set
+    Stop stop;                                // asked before each proposal; once it says so, the best so far is the result
 };
 
-// The best labeling found from `start`, never worse than it by the score.
+// The best labeling found from `start`, never worse than it by the score, also when it is stopped.
 // Bounded: each kept step lowers the score, and a pass that keeps none is the last.
 State run_routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options = {});
 
