@@ -10,9 +10,8 @@ namespace polylab {
 
 namespace {
 
-constexpr double kFlat = 1e-9;          // sine of the angle below which an edge counts as flat
-constexpr Index kLeastBoundaries = 4;   // of a valid chart
-constexpr Index kBorder = -2;           // boundary[h] of a border that is not traced yet
+constexpr double kFlat = 1e-9;   // sine of the angle below which an edge counts as flat
+constexpr Index kBorder = -2;    // boundary[h] of a border that is not traced yet
 
 // Builds the graph phase by phase; `graph` arrives with empty element lists and array sizes set.
 class Builder {
@@ -144,8 +143,7 @@ private:
             boundary.start = corner_at(first);
             boundary.left = g_.chart[facet(h)];
             boundary.right = g_.chart[mesh_.right(h)];
-            const Label l = labels_[facet(h)], r = labels_[mesh_.right(h)];
-            boundary.axis = orthogonal(l, r) ? 3 - axis(l) - axis(r) : kNone;
+            boundary.axis = boundary_axis(labels_[facet(h)], labels_[mesh_.right(h)]);
             boundary.on_features = true;
             boundary.halfedges.first = static_cast<Index>(g_.halfedges.size());
             Index at = first;

@@ -101,9 +101,7 @@ private:
 
     void set_limit(double mean_fidelity) { loss_limit_ = static_cast<std::int64_t>(mean_fidelity * kLossUnit * mesh_.facets()); }
 
-    bool improves(const State& s, const State& before) const {
-        return s.score < before.score && s.score.loss - before.score.loss <= loss_limit_;
-    }
+    bool improves(const Score& s, const Score& before) const { return s < before && s.loss - before.loss <= loss_limit_; }
 
     // Tries all proposals. Of those that improve the score it keeps the one with the least loss, so that a small repair is
     // preferred to a sweeping one that repairs more.   tie: the first
@@ -111,19 +109,21 @@ private:
         proposals_tried_ += static_cast<Index>(proposals.size());
         if (proposals.empty() || stopped()) return false;
         Step step{operation, element, in_sequence_, false, static_cast<Index>(proposals.size()), 0, state_.score, {}};
+        const Patch* best = nullptr;
         for (const Patch& patch : proposals) {
-            if (step.facets > 0 && stopped()) break;
-            judge_.apply(state_, patch, trial_);
-            const bool better = improves(trial_, state_), first = step.facets == 0;
-            const bool best =
-                better ? !step.kept || trial_.score.loss < best_.score.loss : !step.kept && trial_.score < best_.score;
-            if (!first && !best) continue;
-            std::swap(trial_, best_);
+            if (best && stopped()) break;
+            const Score score = judge_.score(state_, patch);
+            const bool better = improves(score, state_.score);
+            if (best && !(better ? !step.kept || score.loss < step.after.loss : !step.kept && score < step.after)) continue;
+            best = &patch;
             step.kept = better;
-            step.facets = static_cast<Index>(patch.size());
+            step.after = score;
         }
-        step.after = best_.score;
-        if (step.kept) std::swap(best_, state_);
+        step.facets = static_cast<Index>(best->size());
+        if (step.kept) {
+            judge_.apply(state_, *best, trial_);
+            std::swap(trial_, state_);
+        }
         if (options_.trace) options_.trace(step);
         return step.kept;
     }
@@ -263,7 +263,7 @@ private:
             proposals_tried_++;
             judge_.apply(before, patch, state_);
             for (const ValidityOperator& o : kValidityOperators) for_each_invalid(o);
-            if (!improves(state_, before) || (step.kept && state_.score.loss >= best.score.loss)) continue;
+            if (!improves(state_.score, before.score) || (step.kept && state_.score.loss >= best.score.loss)) continue;
             step.kept = true;
             std::swap(state_, best);
         }
@@ -284,7 +284,7 @@ private:
     bool in_sequence_ = false;
     std::set<Index> invalid_before_[3];   // by kind, in a sequence: names of what was invalid at its start
     std::set<std::tuple<std::string, Index, std::uint64_t, std::int64_t>> tried_;
-    State trial_, best_;   // memory of once()
+    State trial_;   // memory of once()
 };
 
 }   // namespace

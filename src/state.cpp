@@ -12,16 +12,19 @@ constexpr Index kMissing = 3;       // a missing chart counts like an invalid ch
 }   // namespace
 
 Judge::Judge(const TriMesh& mesh, bool allow_opposite, Labeling locks)
-    : mesh_(mesh), allow_opposite_(allow_opposite), locks_(std::move(locks)) {
-    loss_.resize(mesh.facets());
-    for (Index f = 0; f < mesh.facets(); f++)
-        for (Label l = 0; l < kLabels; l++)
-            loss_[f][l] = static_cast<std::int32_t>(kLossUnit * (1 - along(mesh.normal[f], l)) / 2 + 0.5);
-    for (Index h = 0; h < mesh.halfedges(); h++)
-        if (mesh.feature[h] && h < mesh.opposite[h]) features_.push_back(h);
-    if (!features_.empty())
+    : mesh_(mesh), allow_opposite_(allow_opposite), locks_(std::move(locks)), effects_(mesh) {
+    if (mesh.features_kept > 0)
         loss_per_feature_ =
-            static_cast<std::int64_t>(kLostWeight * kLossUnit * mesh.facets() / static_cast<double>(features_.size()));
+            static_cast<std::int64_t>(kLostWeight * kLossUnit * mesh.facets() / static_cast<double>(mesh.features_kept));
+}
+
+std::int64_t Judge::loss(Index f, Label l) const {
+    return static_cast<std::int32_t>(kLossUnit * (1 - along(mesh_.normal[f], l)) / 2 + 0.5);
+}
+
+// Of a labeling with so many invalid elements and so many charts.
+Index Judge::invalid(Index elements, Index charts) const {
+    return elements + kMissing * std::max(0, kLeastCharts * mesh_.components - charts);
 }
 
 State Judge::state(Labeling labels) const {
@@ -42,14 +45,28 @@ void Judge::apply(const State& state, const Patch& patch, State& result) const {
     derive(result);
 }
 
+Score Judge::score(const State& state, const Patch& patch) {
+    if (!locks_.empty()) {
+        allowed_.clear();
+        for (const Relabel& r : patch)
+            if (free(r.facet)) allowed_.push_back(r);
+    }
+    const Effect effect = effects_.effect(state.labels, state.graph, state.turning, locks_.empty() ? patch : allowed_);
+    Score score = {invalid(state.graph.invalid() + effect.invalid, static_cast<Index>(state.graph.charts.size()) + effect.charts),
+                   state.score.turning_points + effect.turning_points,
+                   state.score.loss + loss_per_feature_ * effect.lost_features};
+    for (const Relabel& r : effects_.changes()) score.loss += loss(r.facet, r.label) - loss(r.facet, state.labels[r.facet]);
+    return score;
+}
+
 void Judge::derive(State& state) const {
     build_graph(mesh_, state.labels, state.graph);
     state.turning = find_turning_points(mesh_, state.graph);
-    const Index missing = std::max(0, kLeastCharts * mesh_.components - static_cast<Index>(state.graph.charts.size()));
-    state.score = {state.graph.invalid() + kMissing * missing, static_cast<Index>(state.turning.points.size()), 0};
-    for (Index f = 0; f < mesh_.facets(); f++) state.score.loss += loss_[f][state.labels[f]];
-    for (const Index h : features_)
-        if (!state.graph.is_border(h)) state.score.loss += loss_per_feature_;
+    state.score = {invalid(state.graph.invalid(), static_cast<Index>(state.graph.charts.size())),
+                   static_cast<Index>(state.turning.points.size()), 0};
+    for (Index f = 0; f < mesh_.facets(); f++) state.score.loss += loss(f, state.labels[f]);
+    for (Index h = 0; h < mesh_.halfedges(); h++)
+        if (mesh_.feature[h] && h < mesh_.opposite[h] && !state.graph.is_border(h)) state.score.loss += loss_per_feature_;
 }
 
 }   // namespace polylab

@@ -223,6 +223,12 @@ std::vector<Index> published_chain_turns(const Chain& chain, bool closed) {
     return positions;
 }
 
+Range TurningPoints::of(Index boundary) const {
+    const auto less = [](const TurningPoint& a, const TurningPoint& b) { return a.boundary < b.boundary; };
+    const auto found = std::equal_range(points.begin(), points.end(), TurningPoint{boundary, 0, 0}, less);
+    return {static_cast<Index>(found.first - points.begin()), static_cast<Index>(found.second - points.begin())};
+}
+
 TurningPoints find_turning_points(const TriMesh& mesh, const LabelingGraph& graph) {
     TurningPoints result;
     for (Index b = 0; b < static_cast<Index>(graph.boundaries.size()); b++) {

@@ -97,6 +97,13 @@ struct LabelingGraph {
 LabelingGraph build_graph(const TriMesh& mesh, const Labeling& labels, bool allow_opposite = true);
 void build_graph(const TriMesh& mesh, const Labeling& labels, LabelingGraph& graph);
 
+inline constexpr Index kLeastBoundaries = 4;   // of a valid chart
+
+// The axis that a boundary between two labels follows in the polycube; kNone between opposite ones.
+constexpr int boundary_axis(Label left, Label right) {
+    return orthogonal(left, right) ? 3 - axis(left) - axis(right) : static_cast<int>(kNone);
+}
+
 // Whether boundary axes around a ring can be those of a polycube's corner (paper, Section 4; the published code's rule).
 // axes: of the boundaries in ring order; kNone (-) between opposite labels.
 //   1. If allow_opposite is false and some axis is -, the ring is invalid.

@@ -4,21 +4,13 @@
 // it only if the score improves, so that a result is never worse than its start.
 #pragma once
 
-#include "polylab/turning_points.h"
+#include "polylab/patch.h"
 
-#include <array>
 #include <cstdint>
 #include <tuple>
 #include <vector>
 
 namespace polylab {
-
-// New labels for some facets: what an operator proposes. Empty: it found nothing to do.
-struct Relabel {
-    Index facet;
-    Label label;
-};
-using Patch = std::vector<Relabel>;
 
 // Compared from left to right, less is better; integers only.
 struct Score {
@@ -53,19 +45,23 @@ public:
 
     const TriMesh& mesh() const { return mesh_; }
     State state(Labeling labels) const;
+    // The score of `state` with the patch applied: what apply() would give, at the price of what the patch changes.
+    Score score(const State& state, const Patch& patch);
     // `state` with the patch applied, written into `result` (whose memory is reused). O(n)
     void apply(const State& state, const Patch& patch, State& result) const;
 
 private:
     void derive(State& state) const;
+    std::int64_t loss(Index f, Label l) const;   // kLossUnit (1 - fidelity)
+    Index invalid(Index elements, Index charts) const;
     bool free(Index f) const { return locks_.empty() || locks_[f] == kNoLabel; }
 
     const TriMesh& mesh_;
     bool allow_opposite_;
     Labeling locks_;
-    std::vector<std::array<std::int32_t, kLabels>> loss_;   // facet -> 1e6 (1 - fidelity) of each label
-    std::vector<Index> features_;                           // one half-edge per kept feature edge
-    std::int64_t loss_per_feature_ = 0;
+    std::int64_t loss_per_feature_ = 0;   // that is lost
+    EffectFinder effects_;
+    Patch allowed_;   // memory of score(): the patch without locked facets
 };
 
 }   // namespace polylab

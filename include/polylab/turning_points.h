@@ -54,6 +54,8 @@ struct TurningPoints {
     std::vector<TurningPoint> points;   // by boundary, then position
     Index vertices = 0;                 // distinct ones among them: what the published statistics count
     Index non_monotone_boundaries = 0;
+
+    Range of(Index boundary) const;   // in points; O(log n)
 };
 
 // Boundaries of one edge and boundaries between opposite labels have none. O(length of all boundaries)
