@@ -13,7 +13,7 @@ for list in make cmake; do
         status=1
     done
 done
-before="base vec3 labels"
+before="base vec3 labels marks"
 for module in $(sed -n '/^MODULES/ { :more; /\\$/ { N; b more; }; s/\\\n//g; s/^MODULES *= *//p; }' Makefile); do
     before="$before $module"
     for header in $(sed -n 's|^#include "polylab/\(.*\)\.h"|\1|p' "include/polylab/$module.h" "src/$module.cpp"); do
