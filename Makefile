@@ -47,9 +47,11 @@ MAKEFLAGS += --no-builtin-rules
 
 all: $(program)
 
+# Linked statically where that works: half of a short run is the loading of shared libraries.
+static_if_possible = $(if $(filter release,$(config)),$(shell echo 'int main() {}' | $(CXX) -static -x c++ - -o /dev/null 2>/dev/null && echo -static))
 $(program): $(objects)/src/main.o $(library)
 	$(say)
-	$(quiet)$(link) -o $@ $^
+	$(quiet)$(link) $(static_if_possible) -o $@ $^
 
 # Made anew, so that an object that left the list leaves the archive.
 $(library): $(library_objects)

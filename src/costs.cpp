@@ -6,12 +6,22 @@ namespace polylab {
 
 namespace {
 
-// exp(-(x/sigma)^2 / 2). At its top the value is 1 or less than 1 by whether the exponent is below 2^-54: for any good exp.
-double gaussian(double x, double sigma) {
-    const double t = x / sigma, exponent = 0.5 * (t * t);
+// -log of exp(-(x/sigma)^2 / 2).
+double exponent(double x, double sigma) {
+    const double t = x / sigma;
+    return 0.5 * (t * t);
+}
+
+// exp(-exponent). At its top the value is 1 or less than 1 by whether the exponent is below 2^-54: for any good exp.
+double gaussian(double exponent) {
     audit("top of a bell, relative", std::abs(exponent / 0x1p-54 - 1));
     return std::exp(-exponent);
 }
+
+// Exponents from kTail to kFarTail need no exp for scales up to 10^5: scale * exp(-12) < 1, and 1 - exp(-34) is still
+// some units of its last place below 1. From kNothing on, 1 - exp(-exponent) rounds to 1.
+constexpr double kTail = 12, kFarTail = 34, kNothing = 40;
+constexpr int kLargestScale = 100000;
 
 // Truncates toward zero; how far the value was from the next integer is what rounding noise would have to bridge.
 int truncated(double cost, double top) {
@@ -22,9 +32,20 @@ int truncated(double cost, double top) {
 
 }   // namespace
 
-int bell_cost(double x, double sigma, int scale) { return truncated(scale * gaussian(x, sigma), scale); }
+int bell_cost(double x, double sigma, int scale) {
+    const double e = exponent(x, sigma);
+    if (e == 0) return scale;
+    if (e >= kTail && scale <= kLargestScale) return 0;
+    return truncated(scale * gaussian(e), scale);
+}
 
-int well_cost(double x, double sigma, int scale) { return truncated(scale * (1 - gaussian(x, sigma)), scale); }
+int well_cost(double x, double sigma, int scale) {
+    const double e = exponent(x, sigma);
+    if (e == 0) return 0;
+    if (e >= kNothing) return scale;
+    if (e >= kTail && e <= kFarTail && scale > 0 && scale <= kLargestScale) return scale - 1;
+    return truncated(scale * (1 - gaussian(e)), scale);
+}
 
 std::int32_t angle_cost(double c) {
     const double clamped = c < -1 ? -1 : c > 1 ? 1 : c;

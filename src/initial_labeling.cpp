@@ -13,6 +13,15 @@ constexpr int kCostScale = 100;
 constexpr int kCycles = 2;
 constexpr Index kLockCost = 100000;   // published code
 
+bool is_to_tilt(const Vec3& n, double sensitivity) {
+    // Of two opposite labels one has weight 0, so the two largest weights are the two largest components.
+    double c[3] = {std::abs(n.x), std::abs(n.y), std::abs(n.z)};
+    std::sort(c, c + 3);
+    audit("facet to tilt", std::abs(c[2] - c[1] - sensitivity));
+    audit(c[2] - c[1] < sensitivity ? "naive label of tilted facets" : "naive label of the others", c[2] - c[1]);
+    return c[2] - c[1] < sensitivity;
+}
+
 }   // namespace
 
 Labeling naive_labeling(const TriMesh& mesh) {
@@ -29,15 +38,7 @@ Labeling naive_labeling(const TriMesh& mesh) {
 
 std::vector<char> facets_to_tilt(const TriMesh& mesh, double sensitivity) {
     std::vector<char> tilt(mesh.facets());
-    for (Index f = 0; f < mesh.facets(); f++) {
-        // Of two opposite labels one has weight 0, so the two largest weights are the two largest components.
-        const Vec3& n = mesh.normal[f];
-        double c[3] = {std::abs(n.x), std::abs(n.y), std::abs(n.z)};
-        std::sort(c, c + 3);
-        audit("facet to tilt", std::abs(c[2] - c[1] - sensitivity));
-        audit(c[2] - c[1] < sensitivity ? "naive label of tilted facets" : "naive label of the others", c[2] - c[1]);
-        tilt[f] = c[2] - c[1] < sensitivity;
-    }
+    for (Index f = 0; f < mesh.facets(); f++) tilt[f] = is_to_tilt(mesh.normal[f], sensitivity);
     return tilt;
 }
 
@@ -57,18 +58,29 @@ int pairwise_cost(const Vec3& normal, const Vec3& neighbour, int compactness) {
 
 PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) {
     PottsEnergy energy;
-    const std::vector<char> tilt = facets_to_tilt(mesh, options.sensitivity);
     energy.data.resize(mesh.facets());
+    Vec3 last;   // the facets of a plane often come one after the other: the same normal, the same costs
     for (Index f = 0; f < mesh.facets(); f++) {
-        const Vec3 n = tilt[f] ? tilted(mesh.normal[f], options.angle) : mesh.normal[f];
+        if (f > 0 && mesh.normal[f] == last) {
+            energy.data[f] = energy.data[f - 1];
+            continue;
+        }
+        last = mesh.normal[f];
+        const Vec3 n = is_to_tilt(last, options.sensitivity) ? tilted(last, options.angle) : last;
         for (Label l = 0; l < kLabels; l++) energy.data[f][l] = data_cost(n, l, options.fidelity);
     }
     energy.ends.reserve(mesh.halfedges());
     energy.weight.reserve(mesh.halfedges() / 2);
+    double cosine = 1;   // likewise
+    int cost = bell_cost(0, kPairwiseSigma, kCostScale * options.compactness);
     for (Index h = 0; h < mesh.halfedges(); h++) {
         if (h > mesh.opposite[h]) continue;
-        energy.ends.insert(energy.ends.end(), {mesh.left(h), mesh.right(h)});
-        energy.weight.push_back(pairwise_cost(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)], options.compactness));
+        energy.ends.push_back(mesh.left(h));
+        energy.ends.push_back(mesh.right(h));
+        const double c = dot(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)]);
+        if (c != cosine) cost = bell_cost(c - 1, kPairwiseSigma, kCostScale * options.compactness);
+        cosine = c;
+        energy.weight.push_back(cost);
     }
     return energy;
 }

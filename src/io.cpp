@@ -29,7 +29,16 @@ Vec3 read_point(Scanner& in) {
 
 class ObjReader {
 public:
-    ObjReader(std::string_view text, const std::string& name) : in_(text, name) {}
+    ObjReader(std::string_view text, const std::string& name) : in_(text, name) {
+        Index points = 0, triangles = 0;   // of a file as most are; only to reserve memory
+        for (std::size_t at = 0; at + 1 < text.size(); at = std::min(text.find('\n', at), text.size() - 1) + 1) {
+            if (text[at + 1] != ' ') continue;
+            points += text[at] == 'v';
+            triangles += text[at] == 'f';
+        }
+        data_.points.reserve(points);
+        data_.triangles.reserve(3 * static_cast<std::size_t>(triangles));
+    }
 
     MeshData read() {
         do {
@@ -424,7 +433,10 @@ std::string labels_text(const Labeling& labels) {
     std::string out;
     out.reserve(2 * labels.size());
     for (const Label l : labels) {
-        append(out, Index{l});
+        if (l >= 0 && l <= 9)
+            out += static_cast<char>('0' + l);
+        else
+            append(out, Index{l});
         out += '\n';
     }
     return out;

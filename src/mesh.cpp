@@ -68,10 +68,21 @@ EdgeTable sort_edges(const MeshData& data) {
         const auto [smaller, larger] = ends(id);
         table.uses[place[smaller]++] = {larger, id};
     }
-    for (std::size_t v = 0; v + 1 < table.first.size(); v++)
-        std::sort(
-            table.uses.begin() + table.first[v], table.uses.begin() + table.first[v + 1],
-            [](const EdgeUse& a, const EdgeUse& b) { return a.larger < b.larger || (a.larger == b.larger && a.id < b.id); });
+    // By (larger, id): the ids under a vertex come in order, so that only `larger` is compared.
+    for (std::size_t v = 0; v + 1 < table.first.size(); v++) {
+        EdgeUse *const begin = table.uses.data() + table.first[v], *const end = table.uses.data() + table.first[v + 1];
+        const auto less = [](const EdgeUse& x, const EdgeUse& y) { return x.larger < y.larger; };
+        if (end - begin > 32) {
+            std::stable_sort(begin, end, less);
+            continue;
+        }
+        for (EdgeUse* i = begin; i < end; i++) {
+            const EdgeUse moved = *i;
+            EdgeUse* j = i;
+            for (; j > begin && less(moved, j[-1]); j--) *j = j[-1];
+            *j = moved;
+        }
+    }
     return table;
 }
 
@@ -120,6 +131,7 @@ void connect(const MeshData& data, TriMesh& mesh) {
 
 // Turned facets exchange their vertices 1 and 2, hence their half-edges 0 and 2.
 void turn_facets(TriMesh& mesh, const std::vector<char>& turn) {
+    if (std::count(turn.begin(), turn.end(), 0) == static_cast<std::ptrdiff_t>(turn.size())) return;
     const auto moved = [&](Index h) { return turn[facet(h)] ? 3 * facet(h) + 2 - h % 3 : h; };
     for (Index& o : mesh.opposite) o = moved(o);
     for (Index f = 0; f < static_cast<Index>(turn.size()); f++) {

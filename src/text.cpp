@@ -1,6 +1,7 @@
 #include "polylab/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -81,14 +82,13 @@ std::string read_file(const std::string& path) {
     if (!file.handle) throw InputError(path, 0, "can't be read: " + reason());
     std::string content;
     const auto size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
-    if (!error) content.reserve(size + 1);
-    std::size_t got = 1;
-    while (got > 0) {
-        const std::size_t end = content.size();
-        content.resize(std::max(content.capacity(), end + 65536));
-        got = std::fread(&content[end], 1, content.size() - end, file.handle);
-        content.resize(end + got);
+    content.resize(error || size == 0 ? 65536 : size + 1);   // one more: the end is met without asking for more memory
+    std::size_t end = 0;
+    while (const std::size_t got = std::fread(&content[end], 1, content.size() - end, file.handle)) {
+        end += got;
+        if (end == content.size()) content.resize(2 * end);
     }
+    content.resize(end);
     if (std::ferror(file.handle)) throw InputError(path, 0, "can't be read: " + reason());
     return content;
 }
@@ -171,24 +171,36 @@ void append(std::string& out, Index i) {
     out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, i).ptr);
 }
 
+namespace {
+
+enum class Kind : char { ordinary, blank, line_end, hash, zero };
+
+constexpr std::array<Kind, 256> kinds() {
+    std::array<Kind, 256> table = {};
+    for (const char c : {' ', '\t', '\v', '\f'}) table[static_cast<unsigned char>(c)] = Kind::blank;
+    table['\n'] = table['\r'] = Kind::line_end;
+    table['#'] = Kind::hash;
+    table[0] = Kind::zero;
+    return table;
+}
+constexpr std::array<Kind, 256> kKind = kinds();
+
+inline Kind kind(char c) { return kKind[static_cast<unsigned char>(c)]; }
+
+}   // namespace
+
 void Scanner::skip_blanks() {
-    for (; at_ < text_.size(); at_++) {
-        const char c = text_[at_];
-        if (c == '\n' || c == '\r') return;
-        if (c == '#') {
-            while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') at_++;
-            return;
-        }
-        if (c != ' ' && c != '\t' && c != '\v' && c != '\f') return;
-    }
+    while (at_ < text_.size() && kind(text_[at_]) == Kind::blank) at_++;
+    if (at_ < text_.size() && text_[at_] == '#')
+        while (at_ < text_.size() && kind(text_[at_]) != Kind::line_end) at_++;
 }
 
 std::string_view Scanner::token_in_line() {
     skip_blanks();
     const std::size_t begin = at_;
-    while (at_ < text_.size() && !std::strchr(" \t\v\f\r\n#", text_[at_])) at_++;
-    // strchr finds the terminator too: a zero byte is an ordinary (wrong) character.
-    while (at_ == begin && at_ < text_.size() && text_[at_] == '\0') at_++;
+    while (at_ < text_.size() && kind(text_[at_]) == Kind::ordinary) at_++;
+    // A run of zero bytes is a (wrong) token of its own.
+    while (at_ == begin && at_ < text_.size() && kind(text_[at_]) == Kind::zero) at_++;
     return text_.substr(begin, at_ - begin);
 }
 
@@ -201,17 +213,52 @@ std::string_view Scanner::token() {
 }
 
 bool Scanner::next_line() {
-    while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') at_++;
+    while (at_ < text_.size() && kind(text_[at_]) != Kind::line_end) at_++;
     if (at_ >= text_.size()) return false;
     at_ += text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n' ? 2 : 1;
     line_++;
     return true;
 }
 
+namespace {
+
+constexpr double kPowerOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                  1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+// Reads digits from t[at] on into `number`; at most 18 in all are counted in `digits`, so that it stays below 2^63.
+void read_digits(std::string_view t, std::size_t& at, std::uint64_t& number, int& digits) {
+    for (; at < t.size() && t[at] >= '0' && t[at] <= '9' && digits < 19; at++, digits++)
+        number = 10 * number + static_cast<std::uint64_t>(t[at] - '0');
+}
+
+// What most files hold: up to 2^53 times or divided by a power of ten up to 10^22. Both are doubles, so that the one
+// operation rounds correctly (W. D. Clinger. How to Read Floating Point Numbers Accurately. PLDI 1990). Anything else,
+// right or wrong, is left to from_chars: false.
+bool read_simple(std::string_view t, double& x) {
+    std::size_t at = 0;
+    std::uint64_t mantissa = 0;
+    int digits = 0, after_point = 0;
+    const bool negative = !t.empty() && t[0] == '-';
+    if (negative) at++;
+    read_digits(t, at, mantissa, digits);
+    if (at < t.size() && t[at] == '.') {
+        const int before = digits;
+        read_digits(t, ++at, mantissa, digits);
+        after_point = digits - before;
+    }
+    if (at != t.size() || digits == 0 || digits > 18 || mantissa > std::uint64_t{1} << 53) return false;
+    x = static_cast<double>(mantissa) / kPowerOfTen[after_point];
+    if (negative) x = -x;
+    return true;
+}
+
+}   // namespace
+
 double Scanner::to_number(std::string_view token, const char* what) const {
     std::string_view digits = token;
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
     double x = 0;
+    if (read_simple(digits, x)) return x;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
     if (error == std::errc::result_out_of_range && end == digits.data() + digits.size()) {
         if (below_one(digits)) return 0;   // gmsh writes such noise; too large a number is an error

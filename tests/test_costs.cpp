@@ -101,3 +101,20 @@ TEST_CASE("costs: sine and cosine agree with the library's") {
         CHECK(std::abs(sc.cos - std::cos(x)) < 1e-13);
     }
 }
+
+TEST_CASE("costs: what is answered without exp is what exp gives") {
+    const auto gaussian = [](double x, double sigma) {
+        const double t = x / sigma;
+        return std::exp(-(0.5 * (t * t)));
+    };
+    // Exponents from 0 to beyond 40, densely around the limits, and every kind of scale.
+    for (const int scale : {0, 1, 7, 100, 256, 257, 300, 65535, 99999, 100000, 100001, 3000000})
+        for (const double sigma : {0.2, 0.25, 1.0})
+            for (int i = 0; i <= 4000; i++) {
+                const double x = -sigma * i * 0.0025;
+                const int bell = bell_cost(x, sigma, scale), well = well_cost(x, sigma, scale);
+                if (bell != static_cast<int>(scale * gaussian(x, sigma)) ||
+                    well != static_cast<int>(scale * (1 - gaussian(x, sigma))))
+                    FAIL_CHECK("scale " << scale << ", sigma " << sigma << ", x " << x);
+            }
+}

@@ -1,6 +1,8 @@
 // Files as whole strings, tokens with line numbers, numbers without a locale.
 #include "polylab/text.h"
 
+#include "shapes.h"
+
 #include <doctest/doctest.h>
 
 #include <fcntl.h>
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <clocale>
 #include <cmath>
 #include <csignal>
@@ -405,4 +408,22 @@ TEST_CASE("text: a dash is standard output and standard input") {
     CHECK(written == "a\nb");
     CHECK(got == "a\nb");
     CHECK(dir.entries() == 1);
+}
+
+TEST_CASE("text: numbers are those of from_chars, also on the short way") {
+    shapes::Lcg random(14);
+    const Scanner in("", "x");
+    for (int round = 0; round < 200000; round++) {
+        std::string token = random.below(3) == 0 ? "-" : "";
+        const Index digits = 1 + random.below(22), point = random.below(24);
+        for (Index i = 0; i < digits; i++) {
+            if (i == point) token += '.';
+            token += static_cast<char>('0' + (random.below(4) == 0 ? 0 : random.below(10)));
+        }
+        if (random.below(8) == 0) token += "e-" + std::to_string(random.below(30));
+        double expected = 0;
+        std::from_chars(token.data(), token.data() + token.size(), expected);
+        const double x = in.to_number(token, "a number");
+        if (x != expected || std::signbit(x) != std::signbit(expected)) FAIL_CHECK(token);
+    }
 }
