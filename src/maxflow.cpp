@@ -13,42 +13,30 @@ constexpr Index kFar = std::numeric_limits<Index>::max();
 
 }   // namespace
 
-MaxFlow::MaxFlow(Index nodes, const std::vector<Index>& ends) : first_(nodes + 1, 0) {
+void MaxFlow::reset(Index nodes, const std::vector<Index>& ends) {
     const Index arcs = static_cast<Index>(ends.size());
-    for (const Index node : ends) first_[node + 1]++;
-    for (Index i = 0; i < nodes; i++) first_[i + 1] += first_[i];
-    std::vector<Index> place(first_.begin(), first_.end() - 1);
-    head_.resize(arcs);
-    sister_.resize(arcs);
+    // first_[i + 2] counts the arcs of i, then first_[i + 1] is the place for its next arc, and in the end where they end.
+    first_.assign(nodes + 2, 0);
+    for (const Index node : ends) first_[node + 2]++;
+    for (Index i = 2; i < nodes + 2; i++) first_[i] += first_[i - 1];
+    arcs_.resize(arcs);
     arc_of_edge_.resize(arcs);
     for (Index e = 0; e < arcs; e += 2) {
         assert(ends[e] != ends[e + 1]);
-        const Index there = place[ends[e]]++, back = place[ends[e + 1]]++;
-        head_[there] = ends[e + 1];
-        head_[back] = ends[e];
-        sister_[there] = back;
-        sister_[back] = there;
+        const Index there = first_[ends[e] + 1]++, back = first_[ends[e + 1] + 1]++;
+        arcs_[there] = {ends[e + 1], back, 0};
+        arcs_[back] = {ends[e], there, 0};
         arc_of_edge_[e] = there;
         arc_of_edge_[e + 1] = back;
     }
-    residual_.resize(arcs);
-    terminal_.resize(nodes);
-    tree_.resize(nodes);
-    parent_.resize(nodes);
-    stamp_.resize(nodes);
-    distance_.resize(nodes);
+    nodes_.resize(nodes);
     active_.resize(nodes);
-    queued_.resize(nodes);
     clear();
 }
 
 void MaxFlow::clear() {
-    std::fill(residual_.begin(), residual_.end(), 0);
-    std::fill(terminal_.begin(), terminal_.end(), 0);
-    std::fill(tree_.begin(), tree_.end(), Tree::none);
-    std::fill(parent_.begin(), parent_.end(), kNone);
-    std::fill(stamp_.begin(), stamp_.end(), 0);
-    std::fill(queued_.begin(), queued_.end(), char{0});
+    for (Arc& arc : arcs_) arc.residual = 0;
+    std::fill(nodes_.begin(), nodes_.end(), Node{});
     active_begin_ = active_count_ = 0;
     orphans_.clear();
     augmentations_ = 0;
@@ -57,39 +45,39 @@ void MaxFlow::clear() {
 
 void MaxFlow::add_edge_capacity(Index e, Index there, Index back) {
     assert(there >= 0 && back >= 0);
-    residual_[arc_of_edge_[2 * e]] += there;
-    residual_[arc_of_edge_[2 * e + 1]] += back;
+    arcs_[arc_of_edge_[2 * e]].residual += there;
+    arcs_[arc_of_edge_[2 * e + 1]].residual += back;
 }
 
 void MaxFlow::add_terminals(Index node, Index from_source, Index to_sink) {
     assert(from_source >= 0 && to_sink >= 0);
     // What goes straight through the node is flow already; terminal_ holds what is left at one of its sides.
-    const Index source = from_source + std::max(terminal_[node], 0), sink = to_sink + std::max(-terminal_[node], 0);
+    const Index source = from_source + std::max(nodes_[node].terminal, 0), sink = to_sink + std::max(-nodes_[node].terminal, 0);
     flow_ += std::min(source, sink);
-    terminal_[node] = source - sink;
+    nodes_[node].terminal = source - sink;
 }
 
 // Grows the two trees from the terminals until they meet, augments the path, repairs the trees, and goes on from there:
 // when no active node is left, no residual path joins source and sink.
 std::int64_t MaxFlow::solve() {
     for (Index i = 0; i < nodes(); i++) {
-        if (terminal_[i] == 0) continue;
-        tree_[i] = terminal_[i] > 0 ? Tree::source : Tree::sink;
-        parent_[i] = kRoot;
-        distance_[i] = 1;
+        if (nodes_[i].terminal == 0) continue;
+        nodes_[i].tree = nodes_[i].terminal > 0 ? Tree::source : Tree::sink;
+        nodes_[i].parent = kRoot;
+        nodes_[i].distance = 1;
         activate(i);
     }
     while (active_count_ > 0) {
         const Index node = active_[active_begin_];
         active_begin_ = active_begin_ + 1 == active_.size() ? 0 : active_begin_ + 1;
         active_count_--;
-        queued_[node] = 0;
-        for (Index arc = first_[node]; arc < first_[node + 1] && tree_[node] != Tree::none;) {
+        nodes_[node].queued = false;
+        for (Index arc = first_[node]; arc < first_[node + 1] && nodes_[node].tree != Tree::none;) {
             if (!join_or_meet(node, arc)) {
                 arc++;
                 continue;
             }
-            augment(tree_[node] == Tree::source ? arc : sister_[arc]);
+            augment(nodes_[node].tree == Tree::source ? arc : arcs_[arc].sister);
             for (std::size_t i = 0; i < orphans_.size(); i++) adopt(orphans_[i]);
             orphans_.clear();
             // The same arc again: it may have capacity left, or its other end may have become free.
@@ -100,29 +88,29 @@ std::int64_t MaxFlow::solve() {
 
 // Residual capacity along the direction in which flow runs through the tree, for an arc that points to the parent:
 // from the parent in the source tree, to the parent in the sink tree.
-Index& MaxFlow::toward_root(Index arc, Tree tree) { return residual_[tree == Tree::source ? sister_[arc] : arc]; }
+Index& MaxFlow::toward_root(Index arc, Tree tree) { return arcs_[tree == Tree::source ? arcs_[arc].sister : arc].residual; }
 
 // The same for an arc that points away from the root.
-Index& MaxFlow::from_root(Index arc, Tree tree) { return residual_[tree == Tree::source ? arc : sister_[arc]]; }
+Index& MaxFlow::from_root(Index arc, Tree tree) { return arcs_[tree == Tree::source ? arc : arcs_[arc].sister].residual; }
 
 // Growth of `node` along one arc. True if the other end belongs to the other tree: an augmenting path.
 bool MaxFlow::join_or_meet(Index node, Index arc) {
-    const Tree tree = tree_[node];
+    const Tree tree = nodes_[node].tree;
     if (from_root(arc, tree) == 0) return false;
-    const Index other = head_[arc];
-    if (tree_[other] == Tree::none) {
-        tree_[other] = tree;
-        parent_[other] = sister_[arc];
-        stamp_[other] = stamp_[node];
-        distance_[other] = distance_[node] + 1;
+    const Index other = arcs_[arc].head;
+    if (nodes_[other].tree == Tree::none) {
+        nodes_[other].tree = tree;
+        nodes_[other].parent = arcs_[arc].sister;
+        nodes_[other].stamp = nodes_[node].stamp;
+        nodes_[other].distance = nodes_[node].distance + 1;
         activate(other);
-    } else if (tree_[other] != tree) {
+    } else if (nodes_[other].tree != tree) {
         return true;
-    } else if (stamp_[other] <= stamp_[node] && distance_[other] > distance_[node] + 1) {
+    } else if (nodes_[other].stamp <= nodes_[node].stamp && nodes_[other].distance > nodes_[node].distance + 1) {
         // A shorter way to the root: keeps the trees shallow, and the paths short.
-        parent_[other] = sister_[arc];
-        stamp_[other] = stamp_[node];
-        distance_[other] = distance_[node] + 1;
+        nodes_[other].parent = arcs_[arc].sister;
+        nodes_[other].stamp = nodes_[node].stamp;
+        nodes_[other].distance = nodes_[node].distance + 1;
     }
     return false;
 }
@@ -130,93 +118,94 @@ bool MaxFlow::join_or_meet(Index node, Index arc) {
 // Pushes as much as possible along the path root - tail(arc) - head(arc) - root; `arc` leads from the source tree to the
 // sink tree. Nodes whose link to the parent is saturated become orphans.
 void MaxFlow::augment(Index arc) {
-    const Index ends[2] = {head_[sister_[arc]], head_[arc]};
-    Index amount = residual_[arc];
+    const Index ends[2] = {arcs_[arcs_[arc].sister].head, arcs_[arc].head};
+    Index amount = arcs_[arc].residual;
     for (const Index end : ends) {
         Index i = end;
-        for (; parent_[i] != kRoot; i = head_[parent_[i]]) amount = std::min(amount, toward_root(parent_[i], tree_[i]));
-        amount = std::min(amount, std::abs(terminal_[i]));
+        for (; nodes_[i].parent != kRoot; i = arcs_[nodes_[i].parent].head)
+            amount = std::min(amount, toward_root(nodes_[i].parent, nodes_[i].tree));
+        amount = std::min(amount, std::abs(nodes_[i].terminal));
     }
     augmentations_++;
     flow_ += amount;
-    residual_[arc] -= amount;
-    residual_[sister_[arc]] += amount;
+    arcs_[arc].residual -= amount;
+    arcs_[arcs_[arc].sister].residual += amount;
     for (const Index end : ends) {
         Index i = end;
-        while (parent_[i] != kRoot) {
-            const Index up = parent_[i];
-            toward_root(up, tree_[i]) -= amount;
-            from_root(up, tree_[i]) += amount;
-            if (toward_root(up, tree_[i]) == 0) make_orphan(i);
-            i = head_[up];
+        while (nodes_[i].parent != kRoot) {
+            const Index up = nodes_[i].parent;
+            toward_root(up, nodes_[i].tree) -= amount;
+            from_root(up, nodes_[i].tree) += amount;
+            if (toward_root(up, nodes_[i].tree) == 0) make_orphan(i);
+            i = arcs_[up].head;
         }
-        terminal_[i] -= terminal_[i] > 0 ? amount : -amount;
-        if (terminal_[i] == 0) make_orphan(i);
+        nodes_[i].terminal -= nodes_[i].terminal > 0 ? amount : -amount;
+        if (nodes_[i].terminal == 0) make_orphan(i);
     }
 }
 
 // Finds a new parent for an orphan, in its own tree and with a way to the root; or sets it free and orphans its children.
 void MaxFlow::adopt(Index node) {
-    const Tree tree = tree_[node];
+    const Tree tree = nodes_[node].tree;
     Index best = kNone, best_distance = kFar;
     for (Index arc = first_[node]; arc < first_[node + 1]; arc++) {
-        const Index other = head_[arc];
-        if (tree_[other] != tree || toward_root(arc, tree) == 0) continue;
+        const Index other = arcs_[arc].head;
+        if (nodes_[other].tree != tree || toward_root(arc, tree) == 0) continue;
         const Index distance = distance_to_root(other);
         if (distance < best_distance) {
             best = arc;
             best_distance = distance;
         }
     }
-    parent_[node] = best;
+    nodes_[node].parent = best;
     if (best != kNone) {
-        stamp_[node] = augmentations_;
-        distance_[node] = best_distance + 1;
+        nodes_[node].stamp = augmentations_;
+        nodes_[node].distance = best_distance + 1;
         return;
     }
     for (Index arc = first_[node]; arc < first_[node + 1]; arc++) {
-        const Index other = head_[arc];
-        if (tree_[other] != tree) continue;
+        const Index other = arcs_[arc].head;
+        if (nodes_[other].tree != tree) continue;
         if (toward_root(arc, tree) > 0) activate(other);   // it could have had this node as a child
-        if (parent_[other] >= 0 && head_[parent_[other]] == node) make_orphan(other);
+        if (nodes_[other].parent >= 0 && arcs_[nodes_[other].parent].head == node) make_orphan(other);
     }
-    tree_[node] = Tree::none;
+    nodes_[node].tree = Tree::none;
 }
 
 // Number of arcs from the node to its terminal, or kFar if the way ends at an orphan. The nodes on the way remember it.
 Index MaxFlow::distance_to_root(Index node) {
     Index distance = 0, i = node;
     while (true) {
-        if (stamp_[i] == augmentations_) {
-            distance += distance_[i];
+        if (nodes_[i].stamp == augmentations_) {
+            distance += nodes_[i].distance;
             break;
         }
         distance++;
-        if (parent_[i] == kRoot) {
-            stamp_[i] = augmentations_;
-            distance_[i] = 1;
+        if (nodes_[i].parent == kRoot) {
+            nodes_[i].stamp = augmentations_;
+            nodes_[i].distance = 1;
             break;
         }
-        if (parent_[i] < 0) return kFar;
-        i = head_[parent_[i]];
+        if (nodes_[i].parent < 0) return kFar;
+        i = arcs_[nodes_[i].parent].head;
     }
     Index left = distance;
-    for (i = node; stamp_[i] != augmentations_; i = head_[parent_[i]]) {
-        stamp_[i] = augmentations_;
-        distance_[i] = left--;
+    for (i = node; nodes_[i].stamp != augmentations_; i = arcs_[nodes_[i].parent].head) {
+        nodes_[i].stamp = augmentations_;
+        nodes_[i].distance = left--;
     }
     return distance;
 }
 
 void MaxFlow::activate(Index node) {
-    if (queued_[node]) return;
-    queued_[node] = 1;
+    if (nodes_[node].queued) return;
+    nodes_[node].queued = true;
     const std::size_t end = active_begin_ + active_count_++;
     active_[end < active_.size() ? end : end - active_.size()] = node;
 }
 
 void MaxFlow::make_orphan(Index node) {
-    parent_[node] = kOrphan;
+    nodes_[node].parent = kOrphan;
     orphans_.push_back(node);
 }
 

@@ -63,10 +63,7 @@ Labeling naive_expansion(const PottsEnergy& energy, Labeling labels, int cycles)
     return labels;
 }
 
-bool expand(const PottsEnergy& energy, Label alpha, Labeling& labels) {
-    MaxFlow network(sites(energy), energy.ends);
-    return polylab::expand(energy, network, alpha, labels);
-}
+bool expand(const PottsEnergy& energy, Label alpha, Labeling& labels) { return Expansion(energy).move(alpha, labels); }
 
 }   // namespace
 
@@ -136,11 +133,11 @@ TEST_CASE("alpha expansion: every move is the best one, ties going to alpha") {
         const bool ties = round % 3 != 0;
         const PottsEnergy energy = random_energy(random, n, random.below(1 + 3 * n), ties ? 3 : 100, ties ? 3 : 60);
         const Labeling start = random_labels(random, n);
-        MaxFlow network(n, energy.ends);   // the same one for all moves
+        Expansion expansion(energy);   // the same one for all moves
         for (Label alpha = 0; alpha < kLabels; alpha++) {
             const Labeling expected = best_move(energy, alpha, start);
             Labeling labels = start;
-            const bool changed = polylab::expand(energy, network, alpha, labels);
+            const bool changed = expansion.move(alpha, labels);
             failures += labels != expected || changed != (expected != start);
             CAPTURE(round);
             CHECK(labels == expected);
@@ -186,14 +183,14 @@ TEST_CASE("alpha expansion: the energy goes down with every move that is made") 
         const Index n = 300;
         const PottsEnergy energy = random_energy(random, n, 500, 300, round < 10 ? 100 : 1000);
         Labeling labels = random_labels(random, n);
-        MaxFlow network(n, energy.ends);
+        Expansion expansion(energy);
         bool changed = true;
         int moves = 0;
         for (; changed && moves < 60; moves += kLabels) {
             changed = false;
             for (Label alpha = 0; alpha < kLabels; alpha++) {
                 const Labeling before = labels;
-                if (polylab::expand(energy, network, alpha, labels)) {
+                if (expansion.move(alpha, labels)) {
                     changed = true;
                     CHECK(energy(labels) < energy(before));
                     for (Index i = 0; i < n; i++) CHECK((labels[i] == before[i] || labels[i] == alpha));

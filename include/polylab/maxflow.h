@@ -19,9 +19,13 @@ namespace polylab {
 class MaxFlow {
 public:
     // A graph of n nodes and undirected edges (ends[2e], ends[2e+1]), all without capacity. O(nodes + edges)
-    MaxFlow(Index nodes, const std::vector<Index>& ends);
+    MaxFlow(Index nodes, const std::vector<Index>& ends) { reset(nodes, ends); }
+    MaxFlow() { reset(0, {}); }
 
-    Index nodes() const { return static_cast<Index>(first_.size()) - 1; }
+    // Another graph in the memory of this one.
+    void reset(Index nodes, const std::vector<Index>& ends);
+
+    Index nodes() const { return static_cast<Index>(nodes_.size()); }
     Index edges() const { return static_cast<Index>(arc_of_edge_.size()) / 2; }
 
     // All capacities and the flow back to zero; the graph stays.
@@ -38,7 +42,7 @@ public:
 
     // Whether the node belongs to the largest source side of a minimum cut. After solve().
     // tie: a node that fits both sides is on the source side
-    bool on_source_side(Index node) const { return tree_[node] != Tree::sink; }
+    bool on_source_side(Index node) const { return nodes_[node].tree != Tree::sink; }
 
 private:
     enum class Tree : char { none, source, sink };
@@ -52,20 +56,26 @@ private:
     void activate(Index node);
     void make_orphan(Index node);
 
-    std::vector<Index> first_;         // the arcs of node i are first_[i] .. first_[i+1] - 1
-    std::vector<Index> head_;          // arc -> the node it points to
-    std::vector<Index> sister_;        // arc -> the reverse arc
-    std::vector<Index> residual_;      // arc -> residual capacity
-    std::vector<Index> arc_of_edge_;   // edge -> its two arcs, there and back
+    struct Arc {
+        Index head;       // the node it points to
+        Index sister;     // the reverse arc
+        Index residual;   // capacity left
+    };
+    struct Node {
+        Index terminal = 0;       // residual capacity from the source (> 0) or to the sink (< 0)
+        Index parent = kNone;     // arc to its parent, or kRoot, kOrphan, kNone
+        Index stamp = 0;          // augmentation after which its distance was found
+        Index distance = 0;       // number of arcs to its terminal, at that time
+        Tree tree = Tree::none;   // search tree it belongs to
+        bool queued = false;      // in active_
+    };
 
-    std::vector<Index> terminal_;   // node -> residual capacity from the source (> 0) or to the sink (< 0)
-    std::vector<Tree> tree_;        // node -> search tree it belongs to
-    std::vector<Index> parent_;     // node -> arc to its parent, or kRoot, kOrphan, kNone
-    std::vector<Index> stamp_;      // node -> augmentation after which its distance was found
-    std::vector<Index> distance_;   // node -> number of arcs to its terminal, at that time
+    std::vector<Index> first_;   // the arcs of node i are first_[i] .. first_[i+1] - 1
+    std::vector<Arc> arcs_;
+    std::vector<Index> arc_of_edge_;   // edge -> its two arcs, there and back
+    std::vector<Node> nodes_;
 
     std::vector<Index> active_;   // ring buffer of nodes whose arcs may lead out of their tree
-    std::vector<char> queued_;    // node -> 1 while in active_
     std::size_t active_begin_ = 0, active_count_ = 0;
     std::vector<Index> orphans_;   // nodes that lost their parent
     Index augmentations_ = 0;
