@@ -43,7 +43,7 @@ dry_run = $(findstring n,$(firstword -$(MAKEFLAGS)))
 
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
-.PHONY: all demo test golden golden-update remarks tie-audit doctest static amalgamated coverage install format format-fix tidy clean help FORCE
+.PHONY: all demo test golden golden-update remarks bench tie-audit doctest static amalgamated coverage install format format-fix tidy clean help FORCE
 
 all: $(program)
 
@@ -103,6 +103,13 @@ tie-audit:
 	$(quiet)$(compile) -DPOLYLAB_TIE_AUDIT -o $(out)/tie_audit tools/tie_audit.cpp $(MODULES:%=src/%.cpp) $(LDFLAGS)
 	@$(out)/tie_audit golden/cases/*/*.obj golden/cases/*/*.mesh
 
+# Where the time goes, per model and stage; tools/bench.sh has the variables CORPUS, GROWTH, BASE, REPEATS, CSV.
+bench: $(out)/bench $(out)/subdivide
+	@tools/bench.sh $^
+$(out)/bench $(out)/subdivide: $(out)/%: $(objects)/tools/%.o $(library)
+	$(say)
+	$(quiet)$(link) $(static_if_possible) -o $@ $^
+
 # What a port has to know: rules between equals, traps, and where the paper or the published code is left.
 remarks:
 	@grep -rnE 'tie:|port:|differs:' include src
@@ -151,6 +158,7 @@ help:
 	@echo "make test         builds and runs the tests (doctest)"
 	@echo "make golden       compares with the golden cases; golden-update CASE=... rewrites some"
 	@echo "make tie-audit    by how much the comparisons that decide labels are decided"
+	@echo "make bench        times per stage; CORPUS=DIR, GROWTH=FILE, BASE=other/bench: see tools/bench.sh"
 	@echo "make remarks      lists the rules between equals, traps for ports, and differences from the paper"
 	@echo "make static       build/polylab-static, one file that runs anywhere"
 	@echo "make amalgamated  all sources as one translation unit"
