@@ -260,6 +260,29 @@ int run_surface(const Arguments& arguments) {
     return kDone;
 }
 
+int run_polycube(const Arguments& arguments) {
+    const Console console(arguments);
+    const std::string output = arguments.get("-o", "-");
+    const TriMesh mesh = read_part(arguments, console);
+    const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
+    MeshData polycube = mesh_data(mesh);
+    polycube.points = surface_polycube(mesh, labels);
+    Judged result = judge(mesh, labels);
+    const Distortion d = distortion(mesh, polycube.points);
+    result.statistics.distortion = d;
+    const std::string text = output == "-" ? obj_text(polycube) : mesh_text(output, polycube);
+    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph));
+    std::vector<Output> outputs = {{output, text}};
+    if (arguments.has("--stats")) outputs.push_back({arguments.get("--stats"), json});
+    write_files(outputs);
+    char line[160];
+    std::snprintf(line, sizeof line,
+                  "distortion: stretch %.3f, area %.3f, angle %.3f, isometric %.3f; %d collapsed, %d turned facets", d.stretch,
+                  d.area, d.angle, d.isometric, d.collapsed, d.turned);
+    console.say(line);
+    return kDone;
+}
+
 int run_stages(const Arguments& arguments) {
     const std::vector<Stage> all = stages(read_surface(arguments.operands[0]));
     std::vector<Output> outputs;
@@ -331,6 +354,17 @@ const std::vector<Command>& commands() {
          "Carries surface labels to the facets of the tetrahedra: four labels per tetrahedron, -1 inside.",
          {kOutput},
          run_volume_labels},
+        {"polycube",
+         {"PART", "LABELS"},
+         "Moves the surface onto the polycube that its labels ask for: each chart into a plane across its axis, by least squares.\n"
+         "Vertices and facets keep their numbers.\n\n" +
+             kPartHelp,
+         {{"-o", "FILE", "the polycube: .obj or .mesh; as .obj to standard output without this, or with -"},
+          {"--stats", "JSON", "also write the statistics, with the distortion of the polycube"},
+          kFeatures,
+          kQuiet,
+          kVerbose},
+         run_polycube},
         {"stages",
          {"PART", "DIR"},
          "Writes what each step of the method gives into the files 01-mesh.txt … 10-statistics.txt of a folder, to compare a\n"

@@ -98,6 +98,16 @@ void write_json(JsonWriter& json, const Statistics& s) {
     json.value("class", s.result_class() == Class::invalid          ? "invalid"
                         : s.result_class() == Class::valid_monotone ? "valid_monotone"
                                                                     : "valid_turning_points");
+    if (s.distortion) {
+        json.open_object("distortion");
+        json.value("angle", s.distortion->angle);
+        json.value("area", s.distortion->area);
+        json.value("collapsed", s.distortion->collapsed);
+        json.value("isometric", s.distortion->isometric);
+        json.value("stretch", s.distortion->stretch);
+        json.value("turned", s.distortion->turned);
+        json.close_object();
+    }
     json.value("facets", s.facets);
     json.value("fidelity_area_avg", s.fidelity_area_avg);
     json.value("turning_points", s.own_turning_points);

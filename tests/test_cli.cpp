@@ -89,7 +89,7 @@ Result check_done(const Scratch& scratch, const std::string& arguments, int stat
 }
 
 const std::string kNaive = "0\n0\n1\n1\n2\n2\n3\n3\n4\n4\n5\n5\n";   // labels of cube(1), one per line
-const std::vector<std::string> kCommands = {"label", "stats", "explain", "diff", "surface", "volume-labels"};
+const std::vector<std::string> kCommands = {"label", "stats", "explain", "diff", "surface", "volume-labels", "polycube"};
 
 // Two tetrahedra on one facet: with a corner at the origin, and beyond.
 MeshData two_tets() {
@@ -541,4 +541,26 @@ TEST_CASE("cli: a tet mesh, its surface, and labels for its tetrahedra") {
     check_refused(scratch, "volume-labels naive.txt m.txt", "naive.txt");   // of another mesh
     CHECK(scratch.run("surface tets.mesh -o s.obj --verbose").err.find("2 tetrahedra, 6 triangles on the surface") !=
           std::string::npos);
+}
+
+TEST_CASE("cli: polycube") {
+    const Scratch scratch;
+    const std::string cube_text = obj_text(cube(1));   // its own polycube
+    CHECK(check_done(scratch, "polycube cube.obj naive.txt").out == cube_text);
+    check_done(scratch, "polycube cube.obj naive.txt -o p.obj --stats p.json");
+    CHECK(scratch.read("p.obj") == cube_text);
+    const std::string json = scratch.read("p.json"), plain = check_done(scratch, "stats cube.obj naive.txt").out;
+    CHECK(
+        json.find(
+            "        \"distortion\": {\n            \"angle\": 1.0,\n            \"area\": 1.0,\n            \"collapsed\": 0,\n"
+            "            \"isometric\": 1.0,\n            \"stretch\": 1.0,\n            \"turned\": 0\n        },\n") !=
+        std::string::npos);
+    CHECK(plain.find("distortion") == std::string::npos);
+    CHECK(read_medit((check_done(scratch, "polycube cube.obj naive.txt -o p.mesh"), scratch.read("p.mesh")), "p.mesh").points ==
+          cube(1).points);
+    CHECK(scratch.run("polycube cube.obj naive.txt -o p.obj --verbose").err.find("distortion: stretch 1.000, ") !=
+          std::string::npos);
+    scratch.write("short.txt", "0 0\n");
+    check_refused(scratch, "polycube cube.obj short.txt", "short.txt");
+    check_refused(scratch, "polycube cube.obj naive.txt -o p.txt", "p.txt");
 }

@@ -10,6 +10,7 @@
 #include "polylab/costs.h"
 #include "polylab/initial_labeling.h"
 #include "polylab/io.h"
+#include "polylab/polycube.h"
 #include "polylab/routines.h"
 #include "polylab/statistics.h"
 #include "polylab/tet_surface.h"

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "polylab/json.h"
+#include "polylab/polycube.h"
 #include "polylab/turning_points.h"
 
+#include <optional>
 #include <string>
 
 namespace polylab {
@@ -27,6 +29,7 @@ struct Statistics {
     Index features_lost = 0;        // kept feature edges with one label
     Index features_ignored = 0;     // feature edges of the file that are not kept
     bool allow_opposite = true;
+    std::optional<Distortion> distortion;   // of the polycube: takes longer than the rest, so for the caller to fill in
 
     Index invalid() const { return invalid_charts + invalid_boundaries + invalid_corners; }
     Class result_class() const {
