@@ -3,7 +3,9 @@
 #include "polylab/cli.h"
 #include "polylab/diff.h"
 #include "polylab/explain.h"
+#include "polylab/picture.h"
 #include "polylab/polylab.h"
+#include "polylab/report.h"
 #include "polylab/stages.h"
 
 #include <chrono>
@@ -89,6 +91,8 @@ const Option kOutput = {"-o", "FILE", "where the result goes; standard output wi
 const Option kFeatures = {"--features", "SOURCE",
                           "file: the sharp ones among the file's feature edges (default)\n"
                           "detect[=ANGLE]: every edge at which normals differ by ANGLE (0.5) rad or more"};
+const Option kReport = {"--report", "HTML", "also write a page with a 3-D view of the labels, the statistics and the problems"};
+const Option kPicture = {"--picture", "PNG", "also write a small picture of the part with its labels"};
 const Option kQuiet = {"--quiet", "", "errors only"};
 const Option kVerbose = {"--verbose", "", "progress and summary, also where standard error is not a terminal"};
 
@@ -130,6 +134,27 @@ Judged judge(const TriMesh& mesh, const Labeling& labels) {
 
 ExitStatus status_of(const Statistics& s) { return s.result_class() == Class::invalid ? kNotValid : kDone; }
 
+std::string program_name() { return std::string("polylab ") + kVersion + " (commit " + POLYLAB_COMMIT + ")"; }
+
+// The page of `--report`. `layers` end with the labeling that it is about.
+std::string report_of(const char* command, const Arguments& arguments, const TriMesh& mesh, std::vector<Report::Layer> layers) {
+    Report report;
+    const std::string& part = arguments.operands[0];
+    report.title = part.substr(part.find_last_of("/\\") + 1);
+    report.parameters = {{"command", command}, {"part", part}};
+    if (arguments.operands.size() > 1) report.parameters.push_back({"labels", arguments.operands[1]});
+    for (const auto& [name, value] : arguments.options) report.parameters.push_back({name, value});
+    report.parameters.push_back({"program", program_name()});
+    report.layers = std::move(layers);
+    return report_html(mesh, report);
+}
+
+// For labelings from a file: the two initial ones beside it.
+std::string report_of(const char* command, const Arguments& arguments, const TriMesh& mesh, const Labeling& labels) {
+    return report_of(command, arguments, mesh,
+                     {{"naive", naive_labeling(mesh)}, {"graph-cut", graphcut_labeling(mesh)}, {"given", labels}});
+}
+
 // The paper's routines, with a line of progress per step that is kept; `trace` gets a line per step.
 Labeling run_full(const TriMesh& mesh, Labeling start, Labeling locks, const Arguments& arguments, const Console& console,
                   std::string& trace) {
@@ -169,6 +194,7 @@ int run_label(const Arguments& arguments) {
     listen_to_signals();   // before this there is nothing to save
     console.detail("read and built in " + watch.seconds());
     Labeling locks, labels;
+    std::vector<Report::Layer> layers;   // for the report only
     if (arguments.has("--lock")) locks = read_labels(arguments.get("--lock"), mesh.facets(), /* allow_free= */ true);
     if (arguments.has("--init"))
         labels = read_labels(arguments.get("--init"), mesh.facets());
@@ -179,8 +205,16 @@ int run_label(const Arguments& arguments) {
     for (std::size_t f = 0; f < locks.size(); f++)   // the other methods honour them too
         if (locks[f] != kNoLabel) labels[f] = locks[f];
     console.detail("initial labeling after " + watch.seconds());
+    if (arguments.has("--report")) {
+        if (method != "naive") layers.push_back({"naive", naive_labeling(mesh)});
+        layers.push_back({arguments.has("--init") ? "initial" : method == "naive" ? "naive" : "graph-cut", labels});
+    }
     std::string trace;
-    if (method == "full") labels = run_full(mesh, std::move(labels), std::move(locks), arguments, console, trace);
+    if (method == "full") {
+        labels = run_full(mesh, std::move(labels), std::move(locks), arguments, console, trace);
+        console.detail("final labeling after " + watch.seconds());
+        if (arguments.has("--report")) layers.push_back({"final", labels});
+    }
     const Judged result = judge(mesh, labels);
     const std::string text = labels_text(labels);
     std::string json;
@@ -189,6 +223,10 @@ int run_label(const Arguments& arguments) {
         json = statistics_json(result.statistics, explain(mesh, result.graph));
         outputs.push_back({arguments.get("--stats"), json});
     }
+    std::string report, picture;
+    if (arguments.has("--report"))
+        outputs.push_back({arguments.get("--report"), report = report_of("label", arguments, mesh, std::move(layers))});
+    if (arguments.has("--picture")) outputs.push_back({arguments.get("--picture"), picture = png_picture(mesh, result.graph)});
     if (arguments.has("--trace")) outputs.push_back({arguments.get("--trace"), trace});
     write_files(outputs);
     console.say(summary(result.statistics));
@@ -207,7 +245,13 @@ int run_stats(const Arguments& arguments) {
     const TriMesh mesh = read_part(arguments, console);
     const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
     const Judged result = judge(mesh, labels);
-    write_file(arguments.get("-o", "-"), statistics_json(result.statistics, explain(mesh, result.graph)));
+    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph));
+    std::string report, picture;
+    std::vector<Output> outputs = {{arguments.get("-o", "-"), json}};
+    if (arguments.has("--report"))
+        outputs.push_back({arguments.get("--report"), report = report_of("stats", arguments, mesh, labels)});
+    if (arguments.has("--picture")) outputs.push_back({arguments.get("--picture"), picture = png_picture(mesh, result.graph)});
+    write_files(outputs);
     console.say(summary(result.statistics));
     return status_of(result.statistics);
 }
@@ -221,7 +265,12 @@ int run_explain(const Arguments& arguments) {
     for (const Problem& p : explain(mesh, result.graph)) text += p.text + "\n";
     const std::string advice = hint(mesh);
     if (!text.empty() && !advice.empty()) text += "hint: " + advice + "\n";
-    write_file(arguments.get("-o", "-"), text.empty() ? "valid, and every boundary is monotone\n" : text);
+    if (text.empty()) text = "valid, and every boundary is monotone\n";
+    std::string report;
+    std::vector<Output> outputs = {{arguments.get("-o", "-"), text}};
+    if (arguments.has("--report"))
+        outputs.push_back({arguments.get("--report"), report = report_of("explain", arguments, mesh, labels)});
+    write_files(outputs);
     return status_of(result.statistics);
 }
 
@@ -314,6 +363,8 @@ const std::vector<Command>& commands() {
           {"--method", "METHOD", "full (default), or one of the initial labelings: graphcut, naive"},
           {"--routine", "NAME", "of the full method: validity, monotonicity, or both (default)"},
           {"--stats", "JSON", "also write the statistics of the result"},
+          kReport,
+          kPicture,
           {"--trace", "FILE",
            "also write a line per operator application: operator, element, kept or refused,\n"
            "proposals, facets changed, then invalid elements, turning-points and loss before and after"},
@@ -328,13 +379,13 @@ const std::vector<Command>& commands() {
         {"stats",
          {"PART", "LABELS"},
          "Counts charts, boundaries, corners, turning-points and feature edges of a labeling, as JSON.\n\n" + kPartHelp,
-         {kOutput, kFeatures, kQuiet, kVerbose},
+         {kOutput, kReport, kPicture, kFeatures, kQuiet, kVerbose},
          run_stats},
         {"explain",
          {"PART", "LABELS"},
          "Says in words which charts, boundaries and corners are invalid, and where boundaries turn; worst first.\n\n" +
              kPartHelp,
-         {kOutput, kFeatures, kQuiet, kVerbose},
+         {kOutput, kReport, kFeatures, kQuiet, kVerbose},
          run_explain},
         {"diff",
          {"PART", "A", "B"},
@@ -400,8 +451,8 @@ int run(const std::vector<std::string>& words) {
         return kDone;
     }
     if (first == "--version") {
-        write_file("-", std::string("polylab ") + kVersion + " (commit " + POLYLAB_COMMIT +
-                            ")\nthe same labels on Linux x86-64 and aarch64, built by g++ 12 or clang 14 and later\n");
+        write_file("-",
+                   program_name() + "\nthe same labels on Linux x86-64 and aarch64, built by g++ 12 or clang 14 and later\n");
         return kDone;
     }
     for (const Command& command : commands()) {

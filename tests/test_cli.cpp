@@ -396,6 +396,18 @@ TEST_CASE("cli: explain") {
     CHECK(scratch.read("e.txt") == text);
 }
 
+TEST_CASE("cli: a report and a picture are written with the rest, or not at all") {
+    const Scratch scratch;
+    check_done(scratch, "label cube.obj -o l.txt --report r.html --picture p.png");
+    CHECK(scratch.read("r.html").find("<title>cube.obj - polylab</title>") != std::string::npos);
+    CHECK(scratch.read("p.png").substr(1, 3) == "PNG");
+    check_done(scratch, "stats cube.obj l.txt -o s.json --report r2.html --picture p2.png");
+    CHECK(scratch.read("p2.png") == scratch.read("p.png"));
+    check_done(scratch, "explain cube.obj l.txt -o e.txt --report r3.html");
+    CHECK(scratch.read("r3.html").find("\"name\": \"given\"") != std::string::npos);
+    check_refused(scratch, "label cube.obj -o n.txt --report none/r.html", "none/r.html");
+}
+
 TEST_CASE("cli: diff") {
     const Scratch scratch;
     scratch.write("b.txt", "0 0 1 1 2 2 3 3 4 4 5 0");
