@@ -145,6 +145,7 @@ std::string report_of(const char* command, const Arguments& arguments, const Tri
     if (arguments.operands.size() > 1) report.parameters.push_back({"labels", arguments.operands[1]});
     for (const auto& [name, value] : arguments.options) report.parameters.push_back({name, value});
     report.parameters.push_back({"program", program_name()});
+    if (build_graph(mesh, layers.back().labels).valid()) report.polycube = surface_polycube(mesh, layers.back().labels);
     report.layers = std::move(layers);
     return report_html(mesh, report);
 }
