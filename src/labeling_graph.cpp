@@ -88,7 +88,7 @@ private:
 
     // Drops the rings that are no corner, sorts the others by vertex, and makes their vertices corners.
     void number_corners() {
-        std::fill(g_.corner.begin(), g_.corner.end(), kNone);
+        for (const Index h : borders_) g_.corner[mesh_.from(h)] = kNone;
         std::vector<Ring> rings;
         for (const Ring& ring : g_.rings)
             if (ring.halfedges.size() >= 3) rings.push_back(ring);
@@ -98,7 +98,7 @@ private:
         });
         const std::vector<Index> found = std::move(g_.ring_halfedges);
         g_.ring_halfedges.clear();
-        std::fill(ring_of_.begin(), ring_of_.end(), kNone);
+        for (const Index h : found) ring_of_[h] = kNone;
         for (Ring& ring : rings) {
             const Range old = ring.halfedges;
             ring.halfedges.first = static_cast<Index>(g_.ring_halfedges.size());

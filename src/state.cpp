@@ -34,15 +34,21 @@ State Judge::state(Labeling labels) const {
         if (locks_[f] != kNoLabel) state.labels[f] = locks_[f];
     state.graph.allow_opposite = allow_opposite_;
     derive(state);
+    for (Index f = 0; f < mesh_.facets(); f++) state.score.loss += loss(f, state.labels[f]);
     return state;
 }
 
 void Judge::apply(const State& state, const Patch& patch, State& result) const {
     result.labels = state.labels;
     result.graph.allow_opposite = allow_opposite_;
-    for (const Relabel& r : patch)
-        if (free(r.facet)) result.labels[r.facet] = r.label;
+    std::int64_t fidelity_loss = state.score.loss - loss_per_feature_ * lost_features(state.graph);
+    for (const Relabel& r : patch) {
+        if (!free(r.facet)) continue;
+        fidelity_loss += loss(r.facet, r.label) - loss(r.facet, result.labels[r.facet]);
+        result.labels[r.facet] = r.label;
+    }
     derive(result);
+    result.score.loss += fidelity_loss;
 }
 
 Score Judge::score(const State& state, const Patch& patch) {
@@ -59,14 +65,18 @@ Score Judge::score(const State& state, const Patch& patch) {
     return score;
 }
 
+// All but the loss of fidelity.
 void Judge::derive(State& state) const {
     build_graph(mesh_, state.labels, state.graph);
     state.turning = find_turning_points(mesh_, state.graph);
     state.score = {invalid(state.graph.invalid(), static_cast<Index>(state.graph.charts.size())),
-                   static_cast<Index>(state.turning.points.size()), 0};
-    for (Index f = 0; f < mesh_.facets(); f++) state.score.loss += loss(f, state.labels[f]);
-    for (Index h = 0; h < mesh_.halfedges(); h++)
-        if (mesh_.feature[h] && h < mesh_.opposite[h] && !state.graph.is_border(h)) state.score.loss += loss_per_feature_;
+                   static_cast<Index>(state.turning.points.size()), loss_per_feature_ * lost_features(state.graph)};
+}
+
+std::int64_t Judge::lost_features(const LabelingGraph& graph) const {
+    std::int64_t lost = 0;
+    for (Index h = 0; h < mesh_.halfedges(); h++) lost += mesh_.feature[h] && h < mesh_.opposite[h] && !graph.is_border(h);
+    return lost;
 }
 
 }   // namespace polylab

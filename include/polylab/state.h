@@ -53,6 +53,7 @@ public:
 private:
     void derive(State& state) const;
     std::int64_t loss(Index f, Label l) const;   // kLossUnit (1 - fidelity)
+    std::int64_t lost_features(const LabelingGraph& graph) const;
     Index invalid(Index elements, Index charts) const;
     bool free(Index f) const { return locks_.empty() || locks_[f] == kNoLabel; }
 
