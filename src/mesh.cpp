@@ -153,9 +153,25 @@ void measure(TriMesh& mesh) {
     double sum = 0;
     for (Index h = 0; h < mesh.halfedges(); h++) sum += norm(mesh.vector(h));
     mesh.mean_edge = sum / mesh.halfedges();
-    std::vector<char> used(mesh.points.size(), 0);
-    for (const Index v : mesh.origin) used[v] = 1;
-    mesh.isolated_vertices = static_cast<Index>(std::count(used.begin(), used.end(), 0));
+}
+
+void find_fans(TriMesh& mesh) {
+    mesh.outgoing.assign(mesh.points.size(), kNone);
+    std::vector<char> met(mesh.origin.size(), 0);
+    for (Index first = 0; first < mesh.halfedges(); first++) {
+        if (met[first]) continue;
+        Index& outgoing = mesh.outgoing[mesh.from(first)];
+        if (outgoing == kNone)
+            outgoing = first;
+        else
+            mesh.fans.push_back(first);
+        Index h = first;
+        do {
+            met[h] = 1;
+            h = mesh.ccw(h);
+        } while (h != first);
+    }
+    mesh.isolated_vertices = static_cast<Index>(std::count(mesh.outgoing.begin(), mesh.outgoing.end(), kNone));
 }
 
 // Keeps the sharp ones among the named edges, or finds all sharp edges. A facet without area has no angle to anything.
@@ -188,6 +204,7 @@ TriMesh build_mesh(MeshData data, const FeatureOptions& features) {
     mesh.turned_components = orientation.turned_components;
     turn_facets(mesh, orientation.turn);
     measure(mesh);
+    find_fans(mesh);
     keep_sharp_features(mesh, features);
     return mesh;
 }

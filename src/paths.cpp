@@ -45,11 +45,13 @@ Index most_aligned(const TriMesh& mesh, const State& state, Index around, Index 
     return best;
 }
 
-// Some half-edge that leaves the vertex from a facet of the chart, or kNone.
+// The smallest half-edge that leaves the vertex from a facet of the chart, or kNone.
 Index leaving(const TriMesh& mesh, const State& state, Index vertex, Index chart) {
-    for (Index h = 0; h < mesh.halfedges(); h++)
-        if (mesh.from(h) == vertex && state.graph.chart[facet(h)] == chart) return h;
-    return kNone;
+    Index smallest = kNone;
+    mesh.for_each_leaving(vertex, [&](Index h) {
+        if (state.graph.chart[facet(h)] == chart && (smallest == kNone || h < smallest)) smallest = h;
+    });
+    return smallest;
 }
 
 }   // namespace
@@ -73,15 +75,13 @@ Halfedges greedy_path(const TriMesh& mesh, const State& state, Index vertex, Ind
     const Vec3 step = unit(direction);
     Vec3 target = mesh.points[vertex] + step * (kLookAhead * mesh.mean_edge);
     Halfedges path;
-    std::vector<char> visited(mesh.vertices(), 0);
-    visited[vertex] = 1;
+    IndexSet visited(std::initializer_list<Index>{vertex});
     const Index start = leaving(mesh, state, vertex, chart);
     Index h = start == kNone ? kNone : most_aligned(mesh, state, start, chart, step);
     while (h != kNone) {
         path.push_back(h);
         const Index tip = mesh.to(h), back = mesh.opposite[h];
-        if (visited[tip]) return {};
-        visited[tip] = 1;
+        if (!visited.insert(tip)) return {};
         if (on_border(mesh, state, back) || is_turning_point(state, tip)) return path;
         target += step * norm(mesh.vector(h));
         h = most_aligned(mesh, state, back, chart, target - mesh.points[tip]);
@@ -101,12 +101,10 @@ Halfedges lost_features_at(const TriMesh& mesh, const State& state, Index outgoi
 
 Halfedges lost_feature_path(const TriMesh& mesh, const State& state, Index h) {
     const Index chart = state.graph.chart[facet(h)];
-    std::vector<char> visited(mesh.vertices(), 0);
-    visited[mesh.from(h)] = 1;
+    IndexSet visited(std::initializer_list<Index>{mesh.from(h)});
     Halfedges path;
-    while (h != kNone && !visited[mesh.to(h)]) {
+    while (h != kNone && visited.insert(mesh.to(h))) {
         path.push_back(h);
-        visited[mesh.to(h)] = 1;
         const Index back = mesh.opposite[h];
         if (on_border(mesh, state, back)) break;
         Index best = kNone;
@@ -124,74 +122,73 @@ Halfedges lost_feature_path(const TriMesh& mesh, const State& state, Index h) {
 
 std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index chart, const std::vector<Index>& seeds,
                                   const Halfedges& walls) {
-    std::vector<char> wall(mesh.halfedges(), 0), reached(mesh.facets(), 0);
-    for (const Index h : walls) wall[h] = wall[mesh.opposite[h]] = 1;
+    IndexSet wall, reached;
+    for (const Index h : walls) wall.insert(mesh.edge(h));
     std::vector<Index> region;
-    for (const Index f : seeds) {
-        if (reached[f] || state.graph.chart[f] != chart) continue;
-        reached[f] = 1;
-        region.push_back(f);
-    }
+    for (const Index f : seeds)
+        if (state.graph.chart[f] == chart && reached.insert(f)) region.push_back(f);
     for (std::size_t i = 0; i < region.size(); i++) {
         for (Index h = 3 * region[i]; h < 3 * region[i] + 3; h++) {
             const Index f = mesh.right(h);
-            if (wall[h] || reached[f] || state.graph.chart[f] != chart) continue;
-            reached[f] = 1;
-            region.push_back(f);
+            if (state.graph.chart[f] == chart && !wall.has(mesh.edge(h)) && reached.insert(f)) region.push_back(f);
         }
     }
     for (const Index h : walls)
-        if (reached[mesh.left(h)] && reached[mesh.right(h)]) return {};
+        if (reached.has(mesh.left(h)) && reached.has(mesh.right(h))) return {};
     return region;
 }
 
 std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart, int rings) {
-    std::vector<char> touched(mesh.vertices(), 0), in(mesh.facets(), 0);
-    for (const Index v : vertices) touched[v] = 1;
-    std::vector<Index> facets, ring;
+    IndexSet touched, in;
+    std::vector<Index> facets, front;   // front: vertices touched last; what touches earlier ones is in, or in another chart
+    for (const Index v : vertices)
+        if (touched.insert(v)) front.push_back(v);
     for (int r = 0; r < rings; r++) {
-        ring.clear();
-        for (Index f = 0; f < mesh.facets(); f++) {
-            if (in[f] || (chart != kNone && state.graph.chart[f] != chart)) continue;
-            if (touched[mesh.origin[3 * f]] || touched[mesh.origin[3 * f + 1]] || touched[mesh.origin[3 * f + 2]])
-                ring.push_back(f);
-        }
-        for (const Index f : ring) {
-            in[f] = 1;
-            facets.push_back(f);
-            for (int k = 0; k < 3; k++) touched[mesh.origin[3 * f + k]] = 1;
-        }
+        const std::size_t ring = facets.size();
+        for (const Index v : front)
+            mesh.for_each_leaving(v, [&](Index h) {
+                const Index f = facet(h);
+                if ((chart == kNone || state.graph.chart[f] == chart) && in.insert(f)) facets.push_back(f);
+            });
+        std::sort(facets.begin() + static_cast<std::ptrdiff_t>(ring), facets.end());   // by number, all different
+        front.clear();
+        for (std::size_t i = ring; i < facets.size(); i++)
+            for (int k = 0; k < 3; k++)
+                if (touched.insert(mesh.origin[3 * facets[i] + k])) front.push_back(mesh.origin[3 * facets[i] + k]);
     }
     return facets;
 }
 
 std::vector<Index> strip_beside(const TriMesh& mesh, const State& state, const Halfedges& path, int width) {
     const Index chart = state.graph.chart[mesh.left(path[0])];
-    std::vector<Index> seeds;
-    for (const Index h : path)
-        if (state.graph.chart[mesh.left(h)] == chart) seeds.push_back(mesh.left(h));
-    const std::vector<Index> near = band(mesh, state, vertices_of(mesh, path), chart, width);
-    std::vector<char> in(mesh.facets(), 0);
-    for (const Index f : near) in[f] = 1;
+    const IndexSet in(band(mesh, state, vertices_of(mesh, path), chart, width));
     // From the left facets on, within the band, not across the path.
-    std::vector<char> wall(mesh.halfedges(), 0);
-    for (const Index h : path) wall[h] = wall[mesh.opposite[h]] = 1;
+    IndexSet wall, right, reached;
+    for (const Index h : path) {
+        wall.insert(mesh.edge(h));
+        right.insert(mesh.right(h));
+    }
     std::vector<Index> strip;
-    for (const Index f : seeds)
-        if (in[f]) {
-            in[f] = 0;
-            strip.push_back(f);
-        }
-    std::vector<char> right(mesh.facets(), 0);
-    for (const Index h : path) right[mesh.right(h)] = 1;
+    for (const Index h : path)
+        if (in.has(mesh.left(h)) && reached.insert(mesh.left(h))) strip.push_back(mesh.left(h));
     for (std::size_t i = 0; i < strip.size(); i++)
         for (Index h = 3 * strip[i]; h < 3 * strip[i] + 3; h++) {
             const Index f = mesh.right(h);
-            if (!in[f] || wall[h] || right[f]) continue;
-            in[f] = 0;
-            strip.push_back(f);
+            if (in.has(f) && !wall.has(mesh.edge(h)) && !right.has(f) && reached.insert(f)) strip.push_back(f);
         }
     return strip;
+}
+
+std::vector<Index> facets_of(const TriMesh& mesh, const State& state, Index chart) {
+    std::vector<Index> facets = {state.graph.charts[chart].smallest_facet};
+    IndexSet reached(facets);
+    for (std::size_t i = 0; i < facets.size(); i++)
+        for (Index h = 3 * facets[i]; h < 3 * facets[i] + 3; h++) {
+            const Index f = mesh.right(h);
+            if (state.graph.chart[f] == chart && reached.insert(f)) facets.push_back(f);
+        }
+    std::sort(facets.begin(), facets.end());   // by number, all different
+    return facets;
 }
 
 std::vector<Index> facets_beside(const TriMesh& mesh, const State& state, const Halfedges& run, Index chart) {

@@ -78,10 +78,9 @@ void propose_pull(Proposals& proposals, const TriMesh& mesh, const State& state,
     if (region.empty()) return;
     proposals.push_back(relabel(region, pull.label));
     // The thin chart: the part of the region beside the path.
-    std::vector<char> in(mesh.facets(), 0);
-    for (const Index f : region) in[f] = 1;
+    const IndexSet in(region);
     std::vector<Index> strip = band(mesh, state, vertices_of(mesh, path), pull.chart, kThinWidth);
-    strip.erase(std::remove_if(strip.begin(), strip.end(), [&](Index f) { return !in[f]; }), strip.end());
+    strip.erase(std::remove_if(strip.begin(), strip.end(), [&](Index f) { return !in.has(f); }), strip.end());
     if (strip.size() < region.size()) proposals.push_back(relabel(strip, pull.label));
 }
 
@@ -90,7 +89,7 @@ void propose_pull(Proposals& proposals, const TriMesh& mesh, const State& state,
 // From the start of a run to its end by the edges that lead closest to the end, inside the two charts of its boundary.
 Halfedges straight_path(const TriMesh& mesh, const State& state, const Boundary& boundary, const Halfedges& run) {
     const Index target = mesh.to(run.back());
-    std::vector<char> visited(mesh.vertices(), 0);
+    IndexSet visited(std::initializer_list<Index>{mesh.from(run[0])});
     Halfedges path;
     const auto in_charts = [&](Index f) {
         return state.graph.chart[f] == boundary.left || state.graph.chart[f] == boundary.right;
@@ -105,7 +104,6 @@ Halfedges straight_path(const TriMesh& mesh, const State& state, const Boundary&
         return true;
     };
     Index around = run[0];
-    visited[mesh.from(around)] = 1;
     while (mesh.from(around) != target) {
         const Vec3 aim = mesh.points[target] - mesh.points[mesh.from(around)];
         Index best = kNone;
@@ -115,7 +113,7 @@ Halfedges straight_path(const TriMesh& mesh, const State& state, const Boundary&
             h = mesh.cw(h);
             const double length = norm(mesh.vector(h)) * mesh.mean_edge;
             const std::int64_t value = length > 0 ? steps(dot(mesh.vector(h), aim) / length) : 0;
-            if (value > best_value && !visited[mesh.to(h)] && in_charts(mesh.left(h)) && in_charts(mesh.right(h)) &&
+            if (value > best_value && !visited.has(mesh.to(h)) && in_charts(mesh.left(h)) && in_charts(mesh.right(h)) &&
                 usable(h)) {   // tie: first clockwise
                 best = h;
                 best_value = value;
@@ -123,7 +121,7 @@ Halfedges straight_path(const TriMesh& mesh, const State& state, const Boundary&
         } while (h != around);
         if (best == kNone) return {};
         path.push_back(best);
-        visited[mesh.to(best)] = 1;
+        visited.insert(mesh.to(best));
         around = mesh.opposite[best];
     }
     return path;

@@ -158,7 +158,6 @@ struct Cut {
 
 Cut removal_cut(const TriMesh& mesh, const State& state, const std::vector<Index>& charts, int compactness) {
     Cut cut;
-    std::vector<Index> site(mesh.facets(), kNone);
     std::vector<char> removed(state.graph.charts.size(), 0);
     std::vector<std::array<char, kLabels>> allowed(state.graph.charts.size(), std::array<char, kLabels>{});
     for (const Index c : charts) removed[c] = 1;
@@ -167,11 +166,16 @@ Cut removal_cut(const TriMesh& mesh, const State& state, const std::vector<Index
             const Index other = state.graph.neighbour(state.graph.chart_boundaries[i], c);
             if (!removed[other]) allowed[c][state.graph.charts[other].label] = 1;
         }
-    for (Index f = 0; f < mesh.facets(); f++) {
+    for (const Index c : charts) {
+        const std::vector<Index> facets = facets_of(mesh, state, c);
+        cut.facets.insert(cut.facets.end(), facets.begin(), facets.end());
+    }
+    std::sort(cut.facets.begin(), cut.facets.end());   // by number, all different
+    const auto site = [&](Index f) {
+        return static_cast<Index>(std::lower_bound(cut.facets.begin(), cut.facets.end(), f) - cut.facets.begin());
+    };
+    for (const Index f : cut.facets) {
         const Index c = state.graph.chart[f];
-        if (!removed[c]) continue;
-        site[f] = static_cast<Index>(cut.facets.size());
-        cut.facets.push_back(f);
         std::array<Index, kLabels> cost;
         for (Label l = 0; l < kLabels; l++) cost[l] = data_cost(mesh.normal[f], l, 1) + (allowed[c][l] ? 0 : kForbidden);
         cut.energy.data.push_back(cost);
@@ -180,10 +184,11 @@ Cut removal_cut(const TriMesh& mesh, const State& state, const std::vector<Index
         for (Index h = 3 * f; h < 3 * f + 3; h++) {
             const Index g = mesh.right(h);
             const int weight = pairwise_cost(mesh.normal[f], mesh.normal[g], compactness);
-            if (site[g] == kNone) {   // the surroundings are fixed: a different label costs the edge, on one site alone
-                for (Label l = 0; l < kLabels; l++) cut.energy.data[site[f]][l] += l == state.labels[g] ? 0 : weight;
+            if (!removed[state.graph.chart[g]]) {   // the surroundings are fixed: a different label costs the edge, on one site
+                                                    // alone
+                for (Label l = 0; l < kLabels; l++) cut.energy.data[site(f)][l] += l == state.labels[g] ? 0 : weight;
             } else if (f < g) {
-                cut.energy.ends.insert(cut.energy.ends.end(), {site[f], site[g]});
+                cut.energy.ends.insert(cut.energy.ends.end(), {site(f), site(g)});
                 cut.energy.weight.push_back(weight);
             }
         }
@@ -210,10 +215,7 @@ Proposals remove_surrounded_chart(const TriMesh& mesh, const State& state, Index
         around = label;
     }
     if (around == kNoLabel) return {};
-    Proposals proposals(1);
-    for (Index f = 0; f < mesh.facets(); f++)
-        if (state.graph.chart[f] == chart) proposals[0].push_back({f, around});
-    return proposals;
+    return {relabel(facets_of(mesh, state, chart), around)};
 }
 
 Proposals increase_chart_valence(const TriMesh& mesh, const State& state, Index chart) {

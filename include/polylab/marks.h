@@ -1,4 +1,4 @@
-// marks.h: a set of indices 0 .. n-1 that is emptied in no time: for searches that visit few of many elements.
+// marks.h: sets of indices for searches that visit few of many elements.
 #pragma once
 
 #include "polylab/base.h"
@@ -8,6 +8,7 @@
 
 namespace polylab {
 
+// A set of indices 0 .. n-1 that is emptied in no time: for memory that is kept between searches.
 class Marks {
 public:
     // Empties the set and makes room for n indices. O(1), but for the first time and after growth.
@@ -31,6 +32,46 @@ public:
 private:
     std::vector<Index> round_;   // index -> number of the round in which it was inserted last
     Index now_ = 0;
+};
+
+// A set of few indices, in memory of its own size: for what a single search meets. A table with open addressing; nothing
+// iterates over it, so that its order is nobody's concern.
+class IndexSet {
+public:
+    IndexSet() = default;
+    template <class List>
+    explicit IndexSet(const List& indices) {
+        for (const Index i : indices) insert(i);
+    }
+
+    bool has(Index i) const { return !table_.empty() && table_[place(i)] == i; }
+    // Whether i was not in the set. i is not negative.
+    bool insert(Index i) {
+        if (2 * (count_ + 1) > table_.size()) grow();
+        Index& entry = table_[place(i)];
+        if (entry == i) return false;
+        entry = i;
+        count_++;
+        return true;
+    }
+
+private:
+    // Where i is, or where it would go.
+    std::size_t place(Index i) const {
+        const std::size_t mask = table_.size() - 1;
+        std::size_t at = (static_cast<std::uint32_t>(i) * 2654435769u >> 7) & mask;
+        while (table_[at] != kNone && table_[at] != i) at = (at + 1) & mask;
+        return at;
+    }
+    void grow() {
+        const std::vector<Index> old = std::move(table_);
+        table_.assign(old.empty() ? 64 : 2 * old.size(), kNone);
+        for (const Index i : old)
+            if (i != kNone) table_[place(i)] = i;
+    }
+
+    std::vector<Index> table_;   // a power of two, at most half full
+    std::size_t count_ = 0;
 };
 
 }   // namespace polylab

@@ -53,6 +53,8 @@ struct TriMesh {
     std::vector<Index> opposite;   // half-edge -> the other half-edge of its edge, never kNone
     std::vector<Vec3> normal;      // facet -> unit normal, outward; zero where the facet has no area
     std::vector<char> feature;     // half-edge -> 1 on a kept feature edge (both half-edges have it)
+    std::vector<Index> outgoing;   // vertex -> the smallest half-edge that leaves it, kNone without facet
+    std::vector<Index> fans;       // of vertices with several fans: the smallest half-edge of each further fan; increasing
     double mean_edge = 0;          // mean length of all half-edges, added by number: the unit of lengths of all operators
 
     // What construction met, for messages and statistics.
@@ -78,6 +80,21 @@ struct TriMesh {
     Index ccw(Index h) const { return opposite[prev(h)]; }
     Index cw(Index h) const { return next(opposite[h]); }
     Index edge(Index h) const { return h < opposite[h] ? h : opposite[h]; }   // one number per edge
+
+    // Calls visit(h) for each half-edge that leaves the vertex: fan by fan, each counter-clockwise from its smallest one.
+    template <class Visit>
+    void for_each_leaving(Index vertex, const Visit& visit) const {
+        const auto turn = [&](Index first) {
+            Index h = first;
+            do {
+                visit(h);
+                h = ccw(h);
+            } while (h != first);
+        };
+        if (outgoing[vertex] != kNone) turn(outgoing[vertex]);
+        for (const Index first : fans)
+            if (from(first) == vertex) turn(first);
+    }
 
     Vec3 vector(Index h) const { return points[to(h)] - points[from(h)]; }
     // Normal of a facet times twice its area.
