@@ -32,7 +32,7 @@ class Browser:
         self.at = f'http://127.0.0.1:{port}'
         flags = ['--headless', '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader',
                  '--enable-unsafe-swiftshader', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-                 '--disable-sync', '--force-prefers-reduced-motion', '--window-size=1200,800', f'--user-data-dir={folder}']
+                 '--disable-sync', '--force-prefers-reduced-motion', '--window-size=1000,640', f'--user-data-dir={folder}']
         options = {'browserName': 'chrome', 'goog:chromeOptions': {'args': flags}, 'goog:loggingPrefs': {'browser': 'ALL'}}
         for _ in range(100):
             try:
@@ -90,9 +90,13 @@ class Browser:
         self.call('POST', '/actions', {'actions': [{'type': 'pointer', 'id': 'mouse', 'actions': steps}]})
         self.settle()
 
+    def shot(self):
+        """The canvas as it is seen: a PNG in base64. Equal pictures have equal texts."""
+        return self.call('GET', f'/element/{self.element("#canvas")}/screenshot')
+
     def canvas(self):
-        """The canvas as it is seen: (width, height, rows of RGB or RGBA bytes)."""
-        return decode_png(base64.b64decode(self.call('GET', f'/element/{self.element("#canvas")}/screenshot')))
+        """Its pixels: (width, height, rows of RGB or RGBA bytes)."""
+        return decode_png(base64.b64decode(self.shot()))
 
     def errors(self):
         log = self.call('POST', '/se/log', {'type': 'browser'})
@@ -155,9 +159,9 @@ class Tests:
             file.write(base64.b64decode(self.browser.call('GET', '/screenshot')))
 
     def changes(self, what, action):
-        before = self.browser.canvas()
+        before = self.browser.shot()
         action()
-        self.check(what, self.browser.canvas() != before)
+        self.check(what, self.browser.shot() != before)
 
     def valid_part(self):
         b = self.browser
