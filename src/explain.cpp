@@ -161,14 +161,15 @@ std::string hint(const TriMesh& mesh) {
     }
     if (!(tilted > area / 2)) return "";
     return format(
-        "%.0f %% of the part's area is more than 20 degrees from every axis: turn the part so that its main faces lie along X, Y and Z",
+        "%.0f %% of the part's area is more than 20 degrees from every axis: try --align, or turn the part so that its main faces "
+        "lie along X, Y and Z",
         100 * tilted / area);
 }
 
-std::string statistics_json(const Statistics& s, const std::vector<Problem>& problems) {
+std::string statistics_json(const Statistics& s, const std::vector<Problem>& problems, const std::vector<double>& rotation) {
     constexpr const char* kKind[] = {"chart", "boundary", "corner", "turning-point"};
     JsonWriter json;
-    write_json(json, s);
+    write_json(json, s, rotation);
     json.open_array("problems");
     for (const Problem& p : problems) {
         json.open_object();

@@ -1,5 +1,6 @@
 // main.cpp: the command line. What each command does is in the library; here are its words, messages and exit status.
 
+#include "polylab/align.h"
 #include "polylab/cli.h"
 #include "polylab/diff.h"
 #include "polylab/explain.h"
@@ -93,6 +94,9 @@ const Option kFeatures = {"--features", "SOURCE",
                           "detect[=ANGLE]: every edge at which normals differ by ANGLE (0.5) rad or more"};
 const Option kReport = {"--report", "HTML", "also write a page with a 3-D view of the labels, the statistics and the problems"};
 const Option kPicture = {"--picture", "PNG", "also write a small picture of the part with its labels"};
+const Option kAlign = {"--align", "",
+                       "turn the part so that its own faces lie along the axes; labels refer to the turned part,\n"
+                       "and the matrix by which it was turned stands in messages and under polylab in statistics"};
 const Option kQuiet = {"--quiet", "", "errors only"};
 const Option kVerbose = {"--verbose", "", "progress and summary, also where standard error is not a terminal"};
 
@@ -111,13 +115,33 @@ FeatureOptions feature_options(const Arguments& arguments) {
     return options;
 }
 
-TriMesh read_part(const Arguments& arguments, const Console& console) {
+// With --align the mesh comes turned, and `rotation` says how, row by row; otherwise it is empty.
+TriMesh read_part(const Arguments& arguments, const Console& console, std::vector<double>& rotation) {
     const std::string& path = arguments.operands[0];
-    const TriMesh mesh = read_surface(path, feature_options(arguments));
+    TriMesh mesh = read_surface(path, feature_options(arguments));
     for (const std::string& note : notes(mesh)) console.warn(path + ": " + note);
     console.say(path + ": " + std::to_string(mesh.facets()) + " facets, " + std::to_string(mesh.vertices()) + " vertices, " +
                 std::to_string(mesh.features_kept) + " feature edges");
+    rotation.clear();
+    if (!arguments.has("--align")) return mesh;
+    const Rotation own = own_frame(mesh);
+    rotate(mesh, own);
+    std::string rows;
+    for (const Vec3& row : own.row) {
+        rows += rows.empty() ? "(" : "; ";
+        for (int a = 0; a < 3; a++) {
+            if (a > 0) rows += ' ';
+            append(rows, row[a]);
+            rotation.push_back(row[a]);
+        }
+    }
+    console.say(path + ": turned by " + rows + ")");
     return mesh;
+}
+
+TriMesh read_part(const Arguments& arguments, const Console& console) {
+    std::vector<double> rotation;
+    return read_part(arguments, console, rotation);
 }
 
 struct Judged {
@@ -191,7 +215,8 @@ int run_label(const Arguments& arguments) {
     initial.sensitivity = arguments.number("--sensitivity", initial.sensitivity, 0, 1);
     initial.angle = arguments.number("--angle", initial.angle, -1, 1);
 
-    const TriMesh mesh = read_part(arguments, console);
+    std::vector<double> rotation;
+    const TriMesh mesh = read_part(arguments, console, rotation);
     listen_to_signals();   // before this there is nothing to save
     console.detail("read and built in " + watch.seconds());
     Labeling locks, labels;
@@ -221,7 +246,7 @@ int run_label(const Arguments& arguments) {
     std::string json;
     std::vector<Output> outputs = {{output, text}};
     if (arguments.has("--stats")) {
-        json = statistics_json(result.statistics, explain(mesh, result.graph));
+        json = statistics_json(result.statistics, explain(mesh, result.graph), rotation);
         outputs.push_back({arguments.get("--stats"), json});
     }
     std::string report, picture;
@@ -243,10 +268,11 @@ int run_label(const Arguments& arguments) {
 
 int run_stats(const Arguments& arguments) {
     const Console console(arguments);
-    const TriMesh mesh = read_part(arguments, console);
+    std::vector<double> rotation;
+    const TriMesh mesh = read_part(arguments, console, rotation);
     const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
     const Judged result = judge(mesh, labels);
-    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph));
+    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph), rotation);
     std::string report, picture;
     std::vector<Output> outputs = {{arguments.get("-o", "-"), json}};
     if (arguments.has("--report"))
@@ -321,7 +347,7 @@ int run_polycube(const Arguments& arguments) {
     const Distortion d = distortion(mesh, polycube.points);
     result.statistics.distortion = d;
     const std::string text = output == "-" ? obj_text(polycube) : mesh_text(output, polycube);
-    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph));
+    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph), rotation);
     std::vector<Output> outputs = {{output, text}};
     if (arguments.has("--stats")) outputs.push_back({arguments.get("--stats"), json});
     write_files(outputs);
@@ -374,24 +400,25 @@ const std::vector<Command>& commands() {
           {"--sensitivity", "X", "graph-cut: tilt facets whose two best labels are closer than X (default 1e-9)"},
           {"--angle", "RAD", "graph-cut: tilt them by this angle around X, Y and Z (default 0.05)"},
           kFeatures,
+          kAlign,
           kQuiet,
           kVerbose},
          run_label},
         {"stats",
          {"PART", "LABELS"},
          "Counts charts, boundaries, corners, turning-points and feature edges of a labeling, as JSON.\n\n" + kPartHelp,
-         {kOutput, kReport, kPicture, kFeatures, kQuiet, kVerbose},
+         {kOutput, kReport, kPicture, kFeatures, kAlign, kQuiet, kVerbose},
          run_stats},
         {"explain",
          {"PART", "LABELS"},
          "Says in words which charts, boundaries and corners are invalid, and where boundaries turn; worst first.\n\n" +
              kPartHelp,
-         {kOutput, kReport, kFeatures, kQuiet, kVerbose},
+         {kOutput, kReport, kFeatures, kAlign, kQuiet, kVerbose},
          run_explain},
         {"diff",
          {"PART", "A", "B"},
          "Says what changed from labeling A to labeling B. Exit status 1 if anything did.\n\n" + kPartHelp,
-         {kOutput, kFeatures, kQuiet, kVerbose},
+         {kOutput, kFeatures, kAlign, kQuiet, kVerbose},
          run_diff},
         {"surface",
          {"TETS"},

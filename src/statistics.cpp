@@ -67,7 +67,7 @@ std::string summary(const Statistics& s) {
     return text;
 }
 
-void write_json(JsonWriter& json, const Statistics& s) {
+void write_json(JsonWriter& json, const Statistics& s, const std::vector<double>& rotation) {
     json.open_object();
     json.open_object("boundaries");
     json.value("invalid", s.invalid_boundaries);
@@ -110,6 +110,11 @@ void write_json(JsonWriter& json, const Statistics& s) {
     }
     json.value("facets", s.facets);
     json.value("fidelity_area_avg", s.fidelity_area_avg);
+    if (!rotation.empty()) {
+        json.open_array("rotation");
+        for (const double r : rotation) json.value("", r);
+        json.close_array();
+    }
     json.value("turning_points", s.own_turning_points);
     json.close_object();
 }

@@ -373,6 +373,21 @@ TEST_CASE("cli: verbose says what was read and what came out") {
     CHECK(check_done(scratch, "label cube.obj --method naive --verbose --quiet").out == kNaive);   // quiet wins
 }
 
+TEST_CASE("cli: --align turns the part, says how, and the statistics of the labels agree") {
+    Scratch scratch;
+    MeshData data = cube(2);
+    for (Vec3& p : data.points) p = {0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z};
+    scratch.write("turned.obj", obj_text(data));
+    const Result result = scratch.run("label turned.obj --align --verbose -o l.txt --stats s.json");
+    CHECK(result.status == 0);
+    CHECK(result.err.find("turned.obj: turned by (0.8 0.6 0; -0.6 0.8 0; 0 0 1)\n") != std::string::npos);
+    const std::string json = scratch.read("s.json");
+    CHECK(json.find("\"rotation\": [\n            0.8,\n            0.6,\n") != std::string::npos);
+    CHECK(json.find("\"min\": 1.0") != std::string::npos);
+    CHECK(check_done(scratch, "stats turned.obj l.txt --align").out == json);
+    CHECK(check_done(scratch, "stats turned.obj l.txt").out.find("rotation") == std::string::npos);
+}
+
 TEST_CASE("cli: a hint for a part that is turned") {
     const Scratch scratch;
     const std::vector<Vec3> diamond = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};

@@ -279,7 +279,7 @@ TEST_CASE("explain: a hint where the part itself is turned") {
     CHECK(hint(build_mesh(cube(2))).empty());
     CHECK(hint(build_mesh(shapes::stair(3))).empty());
     const std::string rest =
-        " % of the part's area is more than 20 degrees from every axis: turn the part so that its main faces lie along X, Y and "
+        " % of the part's area is more than 20 degrees from every axis: try --align, or turn the part so that its main faces lie along X, Y and "
         "Z";
     // Turned by 45 degrees around Z: four sides of sqrt(2) x 1 of a total of 4 sqrt(2) + 2 * 2.
     const std::vector<Vec3> diamond = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};

@@ -27,6 +27,6 @@ std::vector<Problem> explain(const TriMesh& mesh, const LabelingGraph& graph);
 std::string hint(const TriMesh& mesh);
 
 // Statistics and problems as one JSON object: the published keys and ours.
-std::string statistics_json(const Statistics& s, const std::vector<Problem>& problems);
+std::string statistics_json(const Statistics& s, const std::vector<Problem>& problems, const std::vector<double>& rotation = {});
 
 }   // namespace polylab

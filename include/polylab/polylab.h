@@ -7,6 +7,7 @@
 //   polylab::write_file("labels.txt", polylab::labels_text(labels));
 #pragma once
 
+#include "polylab/align.h"
 #include "polylab/costs.h"
 #include "polylab/initial_labeling.h"
 #include "polylab/io.h"

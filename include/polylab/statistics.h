@@ -44,8 +44,9 @@ Statistics statistics(const TriMesh& mesh, const Labeling& labels, const Labelin
 std::string summary(const Statistics& s);
 
 // The published keys, in the published layout, and ours under "polylab". The object stays open for more keys:
-// those that sort before and after "problems" are written by the two halves.
-void write_json(JsonWriter& json, const Statistics& s);
+// those that sort before and after "problems" are written by the two halves. rotation: the nine entries, row by row, of the
+// matrix by which the part was turned, if it was (align.h).
+void write_json(JsonWriter& json, const Statistics& s, const std::vector<double>& rotation = {});
 void write_json_end(JsonWriter& json, const Statistics& s);
 
 }   // namespace polylab
