@@ -180,9 +180,9 @@ std::string report_of(const char* command, const Arguments& arguments, const Tri
                      {{"naive", naive_labeling(mesh)}, {"graph-cut", graphcut_labeling(mesh)}, {"given", labels}});
 }
 
-// The paper's routines, with a line of progress per step that is kept; `trace` gets a line per step.
-Labeling run_full(const TriMesh& mesh, Labeling start, Labeling locks, const Arguments& arguments, const Console& console,
-                  std::string& trace) {
+// The paper's routines and what comes after them, with a line of progress per step that is kept; `trace` gets a line per step.
+Labeling run_full(const TriMesh& mesh, const Labeling& start, Labeling locks, int effort, const Arguments& arguments,
+                  const Console& console, std::string& trace) {
     const std::string routine = arguments.get("--routine", "both");
     RoutineOptions options;
     options.validity = routine != "monotonicity";
@@ -195,7 +195,7 @@ Labeling run_full(const TriMesh& mesh, Labeling start, Labeling locks, const Arg
             console.detail(step.operation + ": " + std::to_string(step.after.invalid) + " invalid, " +
                            std::to_string(step.after.turning_points) + " turning-points left");
     };
-    return run_routines(mesh, std::move(start), options).labels;
+    return search(mesh, start, options, effort).labels;
 }
 
 int run_label(const Arguments& arguments) {
@@ -204,11 +204,13 @@ int run_label(const Arguments& arguments) {
     const std::string method = arguments.get("--method", "full"), output = arguments.get("-o", "-");
     if (method != "full" && method != "graphcut" && method != "naive")
         throw UsageError("--method: expected 'full', 'graphcut' or 'naive', found '" + method + "'");
-    for (const char* name : {"--init", "--trace", "--routine"})
+    for (const char* name : {"--init", "--trace", "--routine", "--effort"})
         if (arguments.has(name) && method != "full") throw UsageError(std::string(name) + " only goes with --method full");
     const std::string routine = arguments.get("--routine", "both");
     if (routine != "validity" && routine != "monotonicity" && routine != "both")
         throw UsageError("--routine: expected 'validity', 'monotonicity' or 'both', found '" + routine + "'");
+    if (routine != "both" && arguments.has("--effort")) throw UsageError("--effort only goes with --routine both");
+    const int effort = arguments.integer("--effort", routine == "both" ? kDefaultEffort : 0, 0, kMostEffort);
     InitialOptions initial;
     initial.compactness = arguments.integer("--compactness", initial.compactness, 0, 1000);
     initial.fidelity = arguments.integer("--fidelity", initial.fidelity, 0, 1000);
@@ -237,7 +239,7 @@ int run_label(const Arguments& arguments) {
     }
     std::string trace;
     if (method == "full") {
-        labels = run_full(mesh, std::move(labels), std::move(locks), arguments, console, trace);
+        labels = run_full(mesh, labels, std::move(locks), effort, arguments, console, trace);
         console.detail("final labeling after " + watch.seconds());
         if (arguments.has("--report")) layers.push_back({"final", labels});
     }
@@ -388,7 +390,10 @@ const std::vector<Command>& commands() {
           {"--init", "LABELS", "start from these labels instead of the graph-cut's"},
           {"--lock", "LABELS", "one label per facet that it must keep, or -1 to leave it free"},
           {"--method", "METHOD", "full (default), or one of the initial labelings: graphcut, naive"},
-          {"--routine", "NAME", "of the full method: validity, monotonicity, or both (default)"},
+          {"--routine", "NAME", "of the full method: validity or monotonicity, which stop at --effort 0, or both (default)"},
+          {"--effort", "N",
+           "0: the paper's routines alone; 1: redraw what they have changed; 2 (default): if something is invalid or turns,\n"
+           "start again from other graph-cuts; 3: from all of these in any case, for the best"},
           {"--stats", "JSON", "also write the statistics of the result"},
           kReport,
           kPicture,

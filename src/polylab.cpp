@@ -12,6 +12,6 @@ TriMesh read_surface(const std::string& path, const FeatureOptions& features) {
     }
 }
 
-Labeling label_polycube(const TriMesh& mesh) { return run_routines(mesh, graphcut_labeling(mesh)).labels; }
+Labeling label_polycube(const TriMesh& mesh) { return search(mesh, graphcut_labeling(mesh)).labels; }
 
 }   // namespace polylab

@@ -90,7 +90,7 @@ std::vector<Stage> stages(const TriMesh& mesh) {
     std::string trace;
     RoutineOptions options;
     options.trace = [&](const Step& step) { trace += trace_line(step); };
-    const Labeling labels = run_routines(mesh, graphcut, options).labels;
+    const Labeling labels = search(mesh, graphcut, options).labels;
     const std::string energy = "energy " + std::to_string(labeling_energy(mesh)(graphcut)) + "\n";
     return {{"01-mesh", mesh_stage(mesh)},
             {"02-costs", costs_stage(mesh)},

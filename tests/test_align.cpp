@@ -29,7 +29,7 @@ double trace(const Rotation& r) { return r.row[0].x + r.row[1].y + r.row[2].z; }
 }   // namespace
 
 TEST_CASE("align: a part that lies along the axes stays where it is, to the last bit") {
-    for (const MeshData& data : {shapes::cube(2), shapes::l_shape(), shapes::stair(3), shapes::octahedron()}) {
+    for (const MeshData& data : {shapes::cube(2), shapes::l_shape(), shapes::stair(3)}) {
         const Rotation r = own_frame(build_mesh(data));
         for (int a = 0; a < 3; a++) CHECK(r.row[a] == Rotation{}.row[a]);
     }

@@ -12,7 +12,7 @@
 #include "polylab/initial_labeling.h"
 #include "polylab/io.h"
 #include "polylab/polycube.h"
-#include "polylab/routines.h"
+#include "polylab/search.h"
 #include "polylab/statistics.h"
 #include "polylab/tet_surface.h"
 #include "polylab/text.h"
@@ -26,7 +26,7 @@ inline constexpr const char* kVersion = "0.1.0";
 // Reads a surface (.obj, .stl, .mesh), or the surface of a tet mesh (.mesh), and builds it. Throws InputError.
 TriMesh read_surface(const std::string& path, const FeatureOptions& features = {});
 
-// The whole method: graph-cut, then both routines with their defaults. statistics() tells what the result is worth.
+// The whole method: graph-cut, then search() with its defaults. statistics() tells what the result is worth.
 Labeling label_polycube(const TriMesh& mesh);
 
 }   // namespace polylab

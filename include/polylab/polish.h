@@ -1,0 +1,23 @@
+// polish.h: borders that a repair has left uneven are drawn again, without giving up what it has won. Not in the paper.
+//
+// The routines repair with whole strips, and end when a labeling is valid and monotone. Here the places that they changed are
+// cut once more. What is cut is judged like any other step, so that invalid elements and turning-points don't come back.
+#pragma once
+
+#include "polylab/routines.h"
+
+#include <vector>
+
+namespace polylab {
+
+// The given facets, all others being fixed, take the labels that occur on and next to them, by a graph-cut. Its data cost is
+// the loss of fidelity, linear in the normal, so that it also tells labels apart that all point away from a facet; the cost of
+// Section 5 doesn't. Borders on kept feature edges cost nothing. The first proposal is the whole change; if it falls into
+// several edge-connected parts, these follow. O(n log n) in the facets given, but for the max-flow
+Proposals redraw(const TriMesh& mesh, const State& state, std::vector<Index> facets, int compactness);
+
+// `state` with the borders near the facets that differ from `start` redrawn, and facets turned that point away from their
+// label, as long as that improves the score and makes no new chart. Bounded as run_routines() is. Never worse than `state`.
+State polish(const TriMesh& mesh, const Labeling& start, State state, const RoutineOptions& options = {});
+
+}   // namespace polylab

@@ -1,0 +1,249 @@
+#include "polylab/polish.h"
+
+#include "polylab/initial_labeling.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace polylab {
+
+namespace {
+
+constexpr double kDataScale = 500;          // times 1 - cosine; an edge costs up to 100 at compactness 1
+constexpr int kWidths[] = {0, 1, 3, 6};     // rings of facets around those beside a boundary
+constexpr int kCompactness[] = {0, 1, 3};   // 0: every facet by itself; the score refuses what is too ragged
+constexpr double kAway = -0.4;              // cosine of normal and label, fidelity 0.3: the facet points away from its label
+constexpr Index kMostProposals = 20000;     // as in the routines; parts need up to 3000
+
+// Where i stands in a sorted list, or kNone.
+Index place(const std::vector<Index>& sorted, Index i) {
+    const auto at = std::lower_bound(sorted.begin(), sorted.end(), i);
+    return at != sorted.end() && *at == i ? static_cast<Index>(at - sorted.begin()) : kNone;
+}
+
+// The patch, whose facets increase, and its edge-connected parts if there are several.
+Proposals with_parts(const TriMesh& mesh, Patch patch) {
+    std::vector<Index> facets;
+    for (const Relabel& r : patch) facets.push_back(r.facet);
+    std::vector<char> seen(facets.size(), 0);
+    Proposals proposals;
+    for (std::size_t first = 0; first < facets.size(); first++) {
+        if (seen[first]) continue;
+        seen[first] = 1;
+        Patch part = {patch[first]};
+        for (std::size_t i = 0; i < part.size(); i++) {
+            const Index f = part[i].facet;
+            for (Index h = 3 * f; h < 3 * f + 3; h++) {
+                const Index at = place(facets, mesh.right(h));
+                if (at == kNone || seen[at]) continue;
+                seen[at] = 1;
+                part.push_back(patch[at]);
+            }
+        }
+        proposals.push_back(std::move(part));
+    }
+    if (proposals.size() > 1) proposals.insert(proposals.begin(), std::move(patch));
+    return proposals;
+}
+
+}   // namespace
+
+Proposals redraw(const TriMesh& mesh, const State& state, std::vector<Index> facets, int compactness) {
+    std::sort(facets.begin(), facets.end());
+    facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+    bool occurs[kLabels] = {};
+    PottsEnergy energy;
+    Labeling labels;
+    for (const Index f : facets) {
+        labels.push_back(state.labels[f]);
+        occurs[state.labels[f]] = true;
+        std::array<Index, kLabels> cost;
+        for (Label l = 0; l < kLabels; l++) cost[l] = static_cast<Index>(kDataScale * (1 - along(mesh.normal[f], l)) + 0.5);
+        for (Index h = 3 * f; h < 3 * f + 3; h++) {
+            const Index g = mesh.right(h), other = place(facets, g);
+            const int weight = mesh.feature[h] ? 0 : pairwise_cost(mesh.normal[f], mesh.normal[g], compactness);
+            if (other == kNone) {   // the surroundings are fixed: a different label costs the edge, on one site alone
+                occurs[state.labels[g]] = true;
+                for (Label l = 0; l < kLabels; l++) cost[l] += l == state.labels[g] ? 0 : weight;
+            } else if (f < g) {
+                energy.ends.insert(energy.ends.end(), {static_cast<Index>(energy.data.size()), other});
+                energy.weight.push_back(weight);
+            }
+        }
+        energy.data.push_back(cost);
+    }
+    MaxFlow network(static_cast<Index>(facets.size()), energy.ends);
+    for (Label l = 0; l < kLabels; l++)
+        if (occurs[l]) expand(energy, network, l, labels);
+    Patch patch;
+    for (std::size_t i = 0; i < facets.size(); i++)
+        if (labels[i] != state.labels[facets[i]]) patch.push_back({facets[i], labels[i]});
+    return patch.empty() ? Proposals{} : with_parts(mesh, std::move(patch));
+}
+
+namespace {
+
+class Polish {
+public:
+    Polish(const TriMesh& mesh, State state, const RoutineOptions& options)
+        : mesh_(mesh), options_(options), judge_(mesh, options.allow_opposite, options.locks), state_(std::move(state)) {}
+
+    // In rounds: what one round has changed is where the next one looks.
+    State run(Labeling before) {
+        while (note_changes(before) && !over()) {
+            before = state_.labels;
+            for (Index b = 0; b < static_cast<Index>(state_.graph.boundaries.size()); b++)
+                if (is_near(b)) redraw_boundary(b);
+            turned_.clear(mesh_.facets());
+            for (Index f = 0; f < mesh_.facets(); f++)
+                if (near_.has(f) && points_away(f) && !turned_.has(f)) turn(f);
+        }
+        return std::move(state_);
+    }
+
+private:
+    bool over() const { return proposals_tried_ >= kMostProposals || (options_.stop && options_.stop()); }
+
+    // The facets that differ, with those that share an edge with them; whether there are any.
+    bool note_changes(const Labeling& before) {
+        bool any = false;
+        near_.clear(mesh_.facets());
+        for (Index f = 0; f < mesh_.facets(); f++) {
+            if (state_.labels[f] == before[f]) continue;
+            any = true;
+            near_.insert(f);
+            for (Index h = 3 * f; h < 3 * f + 3; h++) near_.insert(mesh_.right(h));
+        }
+        return any;
+    }
+    bool is_near(Index b) const {
+        const Range r = state_.graph.boundaries[b].halfedges;
+        for (Index i = r.first; i < r.last; i++) {
+            const Index h = state_.graph.halfedges[i];
+            if (near_.has(mesh_.left(h)) || near_.has(mesh_.right(h))) return true;
+        }
+        return false;
+    }
+    bool points_away(Index f) const { return along(mesh_.normal[f], state_.labels[f]) < kAway; }
+
+    // The facets and `rings` times those that touch them, in the order in which they are met.
+    std::vector<Index> widened(std::vector<Index> facets, int rings) {
+        in_.clear(mesh_.facets());
+        for (const Index f : facets) in_.insert(f);
+        std::size_t first = 0;
+        for (int r = 0; r < rings; r++) {
+            const std::size_t end = facets.size();
+            for (; first < end; first++) {
+                for (Index h = 3 * facets[first]; h < 3 * facets[first] + 3; h++)
+                    for (Index around = mesh_.cw(h); around != h; around = mesh_.cw(around))
+                        if (in_.insert(facet(around))) facets.push_back(facet(around));
+            }
+        }
+        return facets;
+    }
+
+    // ---- the two operations
+
+    void redraw_boundary(Index b) {
+        std::vector<Index> beside;
+        const Range r = state_.graph.boundaries[b].halfedges;
+        for (Index i = r.first; i < r.last; i++) {
+            beside.push_back(mesh_.left(state_.graph.halfedges[i]));
+            beside.push_back(mesh_.right(state_.graph.halfedges[i]));
+        }
+        std::sort(beside.begin(), beside.end());
+        beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+        Step step{"redraw-boundary", b, false, false, 0, 0, state_.score, state_.score};
+        for (const int width : kWidths) {
+            const std::vector<Index> facets = widened(beside, width);
+            for (const int compactness : kCompactness) {
+                const Proposals proposals = redraw(mesh_, state_, facets, compactness);
+                for (std::size_t i = 0; i < proposals.size(); i++)
+                    if (attempt(proposals[i], step) && i == 0) break;   // the whole, so no parts
+            }
+        }
+        finish(step);
+    }
+
+    // The connected facets around f that point away from their label take another one, alone or with one or two of the facets
+    // that touch them: which one, and with which, is tried.
+    void turn(Index f) {
+        std::vector<Index> away = {f};
+        in_.clear(mesh_.facets());
+        in_.insert(f);
+        for (std::size_t i = 0; i < away.size(); i++)
+            for (Index h = 3 * away[i]; h < 3 * away[i] + 3; h++)
+                if (points_away(mesh_.right(h)) && in_.insert(mesh_.right(h))) away.push_back(mesh_.right(h));
+        for (const Index g : away) turned_.insert(g);
+        const std::vector<Index> around = widened(away, 1);   // behind those of `away`
+        Step step{"turn-facets", f, false, false, 0, 0, state_.score, state_.score};
+        Patch best;
+        Score best_score = state_.score;
+        const std::size_t none = away.size() - 1;
+        for (std::size_t i = none; i < around.size(); i++) {
+            for (std::size_t k = none; k < std::max(i, none + 1) && !over(); k++) {
+                std::vector<Index> facets = away;
+                if (i > none) facets.push_back(around[i]);
+                if (k > none) facets.push_back(around[k]);
+                for (Label l = 0; l < kLabels; l++) {
+                    const Score score = judge_.score(state_, relabel(facets, l));
+                    step.proposals++;
+                    proposals_tried_++;
+                    if (!(score < best_score)) continue;
+                    best_score = score;
+                    best = relabel(facets, l);
+                }
+            }
+        }
+        if (!best.empty()) attempt(best, step);
+        finish(step);
+    }
+
+    // Keeps the patch if the score improves and no chart is added. What was refused is not tried again on the same labels there.
+    bool attempt(const Patch& patch, Step& step) {
+        if (over() || !tried_.insert(fingerprint(patch)).second) return false;
+        step.proposals++;
+        proposals_tried_++;
+        if (!(judge_.score(state_, patch) < state_.score)) return false;
+        judge_.apply(state_, patch, trial_);
+        if (trial_.graph.charts.size() > state_.graph.charts.size()) return false;
+        std::swap(trial_, state_);
+        step.kept = true;
+        step.facets += static_cast<Index>(patch.size());
+        step.after = state_.score;
+        return true;
+    }
+    void finish(const Step& step) const {
+        if (options_.trace && step.proposals > 0) options_.trace(step);
+    }
+
+    // FNV-1a, a word at a time, over the patch and the labels on and around it.
+    std::uint64_t fingerprint(const Patch& patch) const {
+        std::uint64_t hash = 14695981039346656037u;
+        const auto mix = [&](Index i) { hash = (hash ^ static_cast<std::uint32_t>(i)) * 1099511628211u; };
+        for (const Relabel& r : patch) {
+            mix(r.facet);
+            mix(r.label);
+            mix(state_.labels[r.facet]);
+            for (Index h = 3 * r.facet; h < 3 * r.facet + 3; h++) mix(state_.labels[mesh_.right(h)]);
+        }
+        return hash;
+    }
+
+    const TriMesh& mesh_;
+    const RoutineOptions& options_;
+    Judge judge_;
+    State state_, trial_;
+    Index proposals_tried_ = 0;
+    std::set<std::uint64_t> tried_;
+    Marks near_, in_, turned_;
+};
+
+}   // namespace
+
+State polish(const TriMesh& mesh, const Labeling& start, State state, const RoutineOptions& options) {
+    return Polish(mesh, std::move(state), options).run(start);
+}
+
+}   // namespace polylab
