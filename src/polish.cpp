@@ -73,9 +73,9 @@ Proposals redraw(const TriMesh& mesh, const State& state, std::vector<Index> fac
         }
         energy.data.push_back(cost);
     }
-    MaxFlow network(static_cast<Index>(facets.size()), energy.ends);
+    Expansion expansion(energy);
     for (Label l = 0; l < kLabels; l++)
-        if (occurs[l]) expand(energy, network, l, labels);
+        if (occurs[l]) expansion.move(l, labels);
     Patch patch;
     for (std::size_t i = 0; i < facets.size(); i++)
         if (labels[i] != state.labels[facets[i]]) patch.push_back({facets[i], labels[i]});
