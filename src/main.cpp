@@ -349,7 +349,7 @@ int run_polycube(const Arguments& arguments) {
     const Distortion d = distortion(mesh, polycube.points);
     result.statistics.distortion = d;
     const std::string text = output == "-" ? obj_text(polycube) : mesh_text(output, polycube);
-    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph), rotation);
+    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph));
     std::vector<Output> outputs = {{output, text}};
     if (arguments.has("--stats")) outputs.push_back({arguments.get("--stats"), json});
     write_files(outputs);
