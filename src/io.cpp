@@ -13,13 +13,6 @@ namespace {
 
 constexpr Index kLargestCount = std::numeric_limits<Index>::max() / 8;
 
-bool is_extension(const std::string& path, const char* extension) {
-    const std::size_t n = std::strlen(extension);
-    if (path.size() < n) return false;
-    return std::equal(extension, extension + n, path.end() - static_cast<std::ptrdiff_t>(n),
-                      [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
-}
-
 Vec3 read_point(Scanner& in) {
     const double x = in.number("a coordinate"), y = in.number("a coordinate"), z = in.number("a coordinate");
     return {x, y, z};
@@ -336,7 +329,120 @@ MeshData read_ascii_stl(std::string_view text, const std::string& name) {
     return data;
 }
 
+// ---- VTK
+
+constexpr int kVtkVertex = 1, kVtkLine = 3, kVtkTriangle = 5, kVtkTet = 10, kVtkHex = 12;
+
+class VtkReader {
+public:
+    VtkReader(std::string_view text, const std::string& name) : in_(text, name) {
+        if (text.rfind("# vtk DataFile Version ", 0) != 0) throw InputError(name, 1, "expected '# vtk DataFile Version 2.0'");
+    }
+
+    MeshData read() {
+        in_.next_line();   // the head is a comment to the scanner; then comes a title
+        in_.next_line();
+        expect("ASCII");
+        expect("DATASET");
+        expect("UNSTRUCTURED_GRID");
+        std::string_view keyword = in_.token();
+        for (; !keyword.empty() && keyword != "CELL_DATA" && keyword != "POINT_DATA"; keyword = in_.token()) {
+            if (keyword == "POINTS")
+                read_points();
+            else if (keyword == "CELLS")
+                read_cells();
+            else if (keyword == "CELL_TYPES")
+                read_types();
+            else
+                in_.fail("'POINTS', 'CELLS', 'CELL_TYPES', 'CELL_DATA' or 'POINT_DATA'", keyword);
+        }
+        if (first_.size() != types_.size() + 1)
+            in_.fail("CELL_TYPES for " + std::to_string(first_.size() - 1) + " cells", std::to_string(types_.size()) + " types");
+        for (std::size_t c = 0; c < types_.size(); c++) add_cell(c);
+        return std::move(data_);
+    }
+
+private:
+    void expect(const char* word) {
+        const std::string_view token = in_.token();
+        if (token != word) in_.fail(std::string("'") + word + "'", token);
+    }
+    Index read_count() {
+        const Index count = in_.integer("a count");
+        if (count < 0 || count > kLargestCount)
+            in_.fail("a count from 0 to " + std::to_string(kLargestCount), std::to_string(count));
+        return count;
+    }
+    void read_points() {
+        const Index count = read_count();
+        in_.token();   // double or float
+        data_.points.clear();
+        for (Index i = 0; i < count; i++) data_.points.push_back(read_point(in_));
+    }
+    void read_cells() {
+        const Index count = read_count();
+        in_.integer("a count");   // of all numbers in the block
+        first_ = {0};
+        vertices_.clear();
+        lines_.clear();
+        for (Index c = 0; c < count; c++) {
+            const std::string_view token = in_.token();
+            if (token == "OFFSETS") in_.fail("cells as in versions 2 to 4", token);
+            const Index n = in_.to_integer(token, "the number of vertices of a cell");
+            if (n < 1 || n > 8) in_.fail("a cell of 1 to 8 vertices", token);
+            for (Index k = 0; k < n; k++) vertices_.push_back(in_.integer("a vertex index"));
+            first_.push_back(static_cast<Index>(vertices_.size()));
+            lines_.push_back(in_.line());
+        }
+    }
+    void read_types() {
+        const Index count = read_count();
+        types_.clear();
+        for (Index c = 0; c < count; c++) types_.push_back(in_.integer("a cell type"));
+    }
+    void add_cell(std::size_t c) {
+        const auto add = [&](std::vector<Index>& elements, Index n) {
+            if (first_[c + 1] - first_[c] != n)
+                throw InputError(in_.file(), lines_[c],
+                                 "expected " + std::to_string(n) + " vertices for a cell of type " + std::to_string(types_[c]) +
+                                     ", found " + std::to_string(first_[c + 1] - first_[c]));
+            elements.insert(elements.end(), vertices_.begin() + first_[c], vertices_.begin() + first_[c + 1]);
+        };
+        const Index last = static_cast<Index>(data_.points.size()) - 1;
+        for (Index i = first_[c]; i < first_[c + 1]; i++)
+            if (vertices_[i] < 0 || vertices_[i] > last)
+                throw InputError(
+                    in_.file(), lines_[c],
+                    "expected a vertex index from 0 to " + std::to_string(last) + ", found " + std::to_string(vertices_[i]));
+        switch (types_[c]) {
+            case kVtkVertex: break;
+            case kVtkLine: add(data_.edges, 2); break;
+            case kVtkTriangle: add(data_.triangles, 3); break;
+            case kVtkTet: add(data_.tets, 4); break;
+            case kVtkHex: add(data_.hexes, 8); break;
+            default:
+                throw InputError(
+                    in_.file(), lines_[c],
+                    "expected a vertex, line, triangle, tetrahedron or hexahedron (cell type 1, 3, 5, 10 or 12), found " +
+                        std::to_string(types_[c]));
+        }
+    }
+
+    Scanner in_;
+    MeshData data_;
+    std::vector<Index> first_ = {0}, vertices_, lines_, types_;   // cell -> first of its vertices; its line; its type
+};
+
 }   // namespace
+
+bool has_extension(const std::string& path, const char* extension) {
+    const std::size_t n = std::strlen(extension);
+    if (path.size() < n) return false;
+    return std::equal(extension, extension + n, path.end() - static_cast<std::ptrdiff_t>(n),
+                      [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
+}
+
+MeshData read_vtk(std::string_view text, const std::string& name) { return VtkReader(text, name).read(); }
 
 MeshData read_obj(std::string_view text, const std::string& name) { return ObjReader(text, name).read(); }
 
@@ -352,10 +458,11 @@ MeshData read_stl(std::string_view bytes, const std::string& name) {
 }
 
 MeshData read_mesh(const std::string& path) {
-    if (is_extension(path, ".obj")) return read_obj(read_file(path), path);
-    if (is_extension(path, ".mesh")) return read_medit(read_file(path), path);
-    if (is_extension(path, ".stl")) return read_stl(read_file(path), path);
-    throw InputError(path, 0, "expected a file name in .obj, .mesh or .stl");
+    if (has_extension(path, ".obj")) return read_obj(read_file(path), path);
+    if (has_extension(path, ".mesh")) return read_medit(read_file(path), path);
+    if (has_extension(path, ".stl")) return read_stl(read_file(path), path);
+    if (has_extension(path, ".vtk")) return read_vtk(read_file(path), path);
+    throw InputError(path, 0, "expected a file name in .obj, .mesh, .stl or .vtk");
 }
 
 std::string obj_text(const MeshData& data) {
@@ -391,8 +498,8 @@ std::string medit_text(const MeshData& data) {
 }
 
 std::string mesh_text(const std::string& path, const MeshData& data) {
-    if (is_extension(path, ".obj")) return obj_text(data);
-    if (is_extension(path, ".mesh")) return medit_text(data);
+    if (has_extension(path, ".obj")) return obj_text(data);
+    if (has_extension(path, ".mesh")) return medit_text(data);
     throw InputError(path, 0, "expected a file name in .obj or .mesh");
 }
 

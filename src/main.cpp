@@ -4,6 +4,7 @@
 #include "polylab/cli.h"
 #include "polylab/diff.h"
 #include "polylab/explain.h"
+#include "polylab/exports.h"
 #include "polylab/picture.h"
 #include "polylab/polylab.h"
 #include "polylab/report.h"
@@ -244,7 +245,7 @@ int run_label(const Arguments& arguments) {
         if (arguments.has("--report")) layers.push_back({"final", labels});
     }
     const Judged result = judge(mesh, labels);
-    const std::string text = labels_text(labels);
+    const std::string exported = export_text(output, mesh, labels), text = exported.empty() ? labels_text(labels) : exported;
     std::string json;
     std::vector<Output> outputs = {{output, text}};
     if (arguments.has("--stats")) {
@@ -361,6 +362,16 @@ int run_polycube(const Arguments& arguments) {
     return kDone;
 }
 
+int run_export(const Arguments& arguments) {
+    const Console console(arguments);
+    const std::string output = arguments.get("-o");
+    const TriMesh mesh = read_part(arguments, console);
+    const std::string text = export_text(output, mesh, read_labels(arguments.operands[1], mesh.facets()));
+    if (text.empty()) throw UsageError("expected -o FILE in .vtk, .glb, .mesh or .obj");
+    write_file(output, text);
+    return kDone;
+}
+
 int run_stages(const Arguments& arguments) {
     const std::vector<Stage> all = stages(read_surface(arguments.operands[0]));
     std::vector<Output> outputs;
@@ -378,7 +389,7 @@ int run_volume_labels(const Arguments& arguments) {
 }
 
 const std::string kPartHelp =
-    "PART is a closed surface of triangles (.obj, .stl, .mesh) or a tet mesh (.mesh). Labels are 0 = +X, 1 = -X, 2 = +Y,\n"
+    "PART is a closed surface of triangles (.obj, .stl, .mesh, .vtk) or a tet mesh (.mesh, .vtk). Labels are 0 = +X, 1 = -X, 2 = +Y,\n"
     "3 = -Y, 4 = +Z, 5 = -Z, one per triangle, in the order of the file. Elements in messages are counted from 0.";
 
 const std::vector<Command>& commands() {
@@ -386,7 +397,9 @@ const std::vector<Command>& commands() {
         {"label",
          {"PART"},
          "Gives every triangle of a CAD part one of six labels so that they form a polycube.\n\n" + kPartHelp,
-         {kOutput,
+         {{"-o", "FILE",
+           "where the labels go; standard output without this, or with -\n"
+           "in .vtk (ParaView), .glb (coloured), .mesh (references) or .obj (materials): the labeled surface"},
           {"--init", "LABELS", "start from these labels instead of the graph-cut's"},
           {"--lock", "LABELS", "one label per facet that it must keep, or -1 to leave it free"},
           {"--method", "METHOD", "full (default), or one of the initial labelings: graphcut, naive"},
@@ -438,6 +451,14 @@ const std::vector<Command>& commands() {
          "Carries surface labels to the facets of the tetrahedra: four labels per tetrahedron, -1 inside.",
          {kOutput},
          run_volume_labels},
+        {"export",
+         {"PART", "LABELS"},
+         "Writes a labeled surface for other programs.\n\n" + kPartHelp,
+         {{"-o", "FILE", ".vtk (ParaView), .glb (coloured), .mesh (labels as references) or .obj (PolyCut's materials)"},
+          kFeatures,
+          kQuiet,
+          kVerbose},
+         run_export},
         {"polycube",
          {"PART", "LABELS"},
          "Moves the surface onto the polycube that its labels ask for: each chart into a plane across its axis, by least squares.\n"

@@ -13,18 +13,25 @@
 
 namespace polylab {
 
-// Reads a mesh file by its extension: .obj, .mesh (MEDIT ASCII), .stl (ASCII or binary). O(size of the file)
+// Reads a mesh file by its extension: .obj, .mesh (MEDIT ASCII), .stl (ASCII or binary), .vtk
+// (legacy ASCII). O(size of the file)
 //  OBJ    v, f (1, 1/2, 1//3, 1/2/3; negative indices count back), l polylines = feature edges; the rest is skipped.
 //         Polygons with more than three sides are an error.
 //  MEDIT  Vertices, Edges (= feature edges), Triangles, Tetrahedra, Hexahedra; other blocks are skipped, but
 //         quadrilaterals are an error. Versions 1-3.
 //  STL    corners with exactly the same coordinates become one vertex, numbered by first appearance.
+//  VTK    UNSTRUCTURED_GRID of versions 2 to 4: lines (= feature edges), triangles, tetrahedra, hexahedra; vertices are skipped,
+//         other cells are an error. Point and cell data are not read.
 MeshData read_mesh(const std::string& path);
 
 // The same from memory; `name` stands for the file in errors.
 MeshData read_obj(std::string_view text, const std::string& name);
 MeshData read_medit(std::string_view text, const std::string& name);
 MeshData read_stl(std::string_view bytes, const std::string& name);
+MeshData read_vtk(std::string_view text, const std::string& name);
+
+// Whether the name ends with the extension (".obj"), in capitals or not.
+bool has_extension(const std::string& path, const char* extension);
 
 // The text of a mesh file, by the extension of its name: .obj (v, f, l) or .mesh. Other extensions are an error.
 std::string mesh_text(const std::string& path, const MeshData& data);
