@@ -10,11 +10,13 @@ TESTS = $(wildcard tests/*.cpp)
 config = release
 builddir = build
 PREFIX = /usr/local
+SECONDS = 15
 demo_model = golden/cases/bracket/bracket.mesh
 
 flags_release = -O2 -g
 flags_debug = -O0 -g -D_GLIBCXX_ASSERTIONS
 flags_sanitize = -O1 -g -D_GLIBCXX_ASSERTIONS -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
+flags_fuzz = $(flags_sanitize) -fsanitize=fuzzer-no-link
 flags_coverage = -O0 -g --coverage
 $(if $(flags_$(config)),,$(error config=$(config): expected release, debug, sanitize or coverage))
 
@@ -44,7 +46,7 @@ dry_run = $(findstring n,$(firstword -$(MAKEFLAGS)))
 
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
-.PHONY: all demo test golden golden-update remarks bench tie-audit doctest static amalgamated coverage install format format-fix tidy clean help FORCE
+.PHONY: all demo test fuzz golden golden-update remarks bench tie-audit doctest static amalgamated coverage install format format-fix tidy clean help FORCE
 
 all: $(program)
 
@@ -76,7 +78,7 @@ $(objects)/flags: FORCE
 $(objects)/commit: FORCE
 	$(call stamp,$(commit))
 
--include $(library_objects:.o=.d) $(test_objects:.o=.d) $(objects)/src/main.d
+-include $(library_objects:.o=.d) $(test_objects:.o=.d) $(objects)/tests/fuzz/driver.d $(objects)/src/main.d
 
 demo: $(program)
 	@mkdir -p $(out)/demo
@@ -91,6 +93,21 @@ $(tests): $(test_objects) $(library)
 
 doctest:
 	@$(if $(or $(dry_run),$(shell tools/get_doctest.sh $(CXX) $(CPPFLAGS) && echo found)),:,$(error tests need the header doctest/doctest.h; type: sudo apt-get install doctest-dev))
+
+# libFuzzer on each target of tests/fuzz_targets.cpp, for SECONDS each, from the seeds and what it found before.
+fuzz_targets = $(notdir $(wildcard tests/fuzz/seeds/*))
+fuzz:
+	@$(MAKE) --no-print-directory config=fuzz CXX=clang++ $(builddir)/fuzz/fuzz
+	@for target in $(fuzz_targets); do \
+	    mkdir -p $(builddir)/fuzz/$$target; \
+	    $(builddir)/fuzz/fuzz $$target -max_total_time=$(SECONDS) -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+	        -artifact_prefix=$(builddir)/fuzz/$$target- $(builddir)/fuzz/$$target tests/fuzz/seeds/$$target \
+	        >$(builddir)/fuzz/$$target.log 2>&1 || { tail -n 50 $(builddir)/fuzz/$$target.log; exit 1; }; \
+	    echo "  fuzz $$target: $$(sed -n 's/stat::number_of_executed_units: *//p' $(builddir)/fuzz/$$target.log) inputs"; \
+	done
+$(builddir)/fuzz/fuzz: $(objects)/tests/fuzz/driver.o $(objects)/tests/fuzz_targets.o $(objects)/tests/shapes.o $(library)
+	$(say)
+	$(quiet)$(link) -fsanitize=fuzzer -o $@ $^
 
 # The conformance kit; update rewrites named cases and ends with an error, so that it can't pass for a test.
 golden: $(program)
@@ -157,6 +174,7 @@ help:
 	@echo "make              build/polylab and build/libpolylab.a"
 	@echo "make demo         labels the CAD model $(demo_model)"
 	@echo "make test         builds and runs the tests (doctest)"
+	@echo "make fuzz         libFuzzer on every reader, on labelings and on the whole method, SECONDS=$(SECONDS) each (clang++)"
 	@echo "make golden       compares with the golden cases; golden-update CASE=... rewrites some"
 	@echo "make tie-audit    by how much the comparisons that decide labels are decided"
 	@echo "make bench        times per stage; CORPUS=DIR, GROWTH=FILE, BASE=other/bench: see tools/bench.sh"

@@ -465,6 +465,19 @@ MeshData read_mesh(const std::string& path) {
     throw InputError(path, 0, "expected a file name in .obj, .mesh, .stl or .vtk");
 }
 
+void weld(MeshData& data) {
+    std::vector<Vec3> places;
+    std::vector<Index> first, same(data.points.size());   // place -> its first vertex; vertex -> the one that stands for it
+    Welder welder(places);
+    for (std::size_t v = 0; v < data.points.size(); v++) {
+        const Index place = welder.vertex(data.points[v]);
+        if (place == static_cast<Index>(first.size())) first.push_back(static_cast<Index>(v));
+        same[v] = first[place];
+    }
+    for (std::vector<Index>* list : {&data.edges, &data.triangles, &data.tets, &data.hexes})
+        for (Index& v : *list) v = same[v];
+}
+
 std::string obj_text(const MeshData& data) {
     std::string out;
     for (const Vec3& p : data.points) {

@@ -93,10 +93,18 @@ EdgeTable sort_edges(const MeshData& data) {
             if (data.triangles[prev(uses[i].id)] == data.triangles[prev(uses[j].id)])
                 throw InputError(named("facet", facet(uses[j].id)) + ": expected each facet once, found the vertices of " +
                                  named("facet", facet(uses[i].id)) + " again");
+    // Exports that repeat vertices facet by facet look open everywhere: then a vertex here has a twin.
+    std::string twin;
+    const Index vertices = static_cast<Index>(data.points.size());
+    for (Index v = 0; count == 1 && v < vertices && twin.empty(); v++)
+        for (const Index end : {a, b})
+            if (v != end && data.points[v] == data.points[end])
+                twin = "; " + named("vertex", v) + " is at the same place as " + named("vertex", end) + ": --weld makes them one";
     std::string facets;
     for (Index i = 0; i < count && i < 4; i++) facets += (i ? ", " : "") + std::to_string(facet(uses[i].id));
     throw InputError("edge " + std::to_string(a) + "-" + std::to_string(b) + ": expected two facets (a closed surface), found " +
-                     std::to_string(count) + (count == 1 ? " (facet " : " (facets ") + facets + (count > 4 ? ", …)" : ")"));
+                     std::to_string(count) + (count == 1 ? " (facet " : " (facets ") + facets + (count > 4 ? ", …)" : ")") +
+                     twin);
 }
 
 // Pairs the half-edges and marks those that the file calls feature edges.

@@ -2,8 +2,9 @@
 
 namespace polylab {
 
-TriMesh read_surface(const std::string& path, const FeatureOptions& features) {
+TriMesh read_surface(const std::string& path, const FeatureOptions& features, bool welded) {
     MeshData data = read_mesh(path);
+    if (welded) weld(data);
     try {
         if (!data.tets.empty()) data = extract_surface(data).surface;
         return build_mesh(std::move(data), features);

@@ -3,15 +3,12 @@
 
 #include "polylab/polylab.h"
 #include "polylab/tet_surface.h"
+#include "scratch.h"
 #include "shapes.h"
 
 #include <doctest/doctest.h>
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -21,72 +18,6 @@ using shapes::cube;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Result {
-    int status;
-    std::string out, err;
-};
-
-// A new, empty directory in which the program runs; it goes away with its content.
-class Scratch {
-public:
-    Scratch() {
-        fs::remove_all(at_);
-        fs::create_directories(at_);
-        write("cube.obj", obj_text(cube(1)));
-        write("naive.txt", "0 0 1 1 2 2 3 3 4 4 5 5\n");
-    }
-    ~Scratch() {
-        std::error_code ignored;
-        fs::remove_all(at_, ignored);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-
-    std::string path(const std::string& name) const { return (at_ / name).string(); }
-    void write(const std::string& name, const std::string& content) const { write_file(path(name), content); }
-    std::string read(const std::string& name) const { return read_file(path(name)); }
-    bool has(const std::string& name) const { return fs::exists(at_ / name); }
-    std::size_t entries() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(at_), {})); }
-
-    // `polylab ARGUMENTS`, as words of the shell; redirections that they hold win.
-    Result run(const std::string& arguments) const {
-        const std::string out = path("") + "../out." + pid(), err = path("") + "../err." + pid();
-        const std::string command =
-            "cd '" + at_.string() + "' && { '" POLYLAB_PROGRAM "' " + arguments + "\n} </dev/null >'" + out + "' 2>'" + err + "'";
-        const int status = std::system(command.c_str());
-        const Result result = {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
-        fs::remove(out);
-        fs::remove(err);
-        return result;
-    }
-
-private:
-    static std::string pid() { return std::to_string(::getpid()); }
-
-    fs::path at_ = fs::path(POLYLAB_BUILD_DIR) / ("test_cli." + pid());
-};
-
-// No result: status 2, one line of error, nothing else, and no file that was not there.
-void check_refused(const Scratch& scratch, const std::string& arguments, const std::string& message) {
-    CAPTURE(arguments);
-    const std::size_t before = scratch.entries();
-    const Result r = scratch.run(arguments);
-    CHECK(r.status == 2);
-    CHECK(r.out.empty());
-    CAPTURE(r.err);
-    CHECK(std::count(r.err.begin(), r.err.end(), '\n') == 1);
-    CHECK(r.err.find(message) != std::string::npos);
-    CHECK(scratch.entries() == before);
-}
-
-Result check_done(const Scratch& scratch, const std::string& arguments, int status = 0) {
-    CAPTURE(arguments);
-    const Result r = scratch.run(arguments);
-    CHECK(r.status == status);
-    CHECK(r.err.empty());
-    return r;
-}
 
 const std::string kNaive = "0\n0\n1\n1\n2\n2\n3\n3\n4\n4\n5\n5\n";   // labels of cube(1), one per line
 const std::vector<std::string> kCommands = {"label", "stats", "explain", "diff", "surface", "volume-labels", "polycube"};

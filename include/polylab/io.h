@@ -33,6 +33,10 @@ MeshData read_vtk(std::string_view text, const std::string& name);
 // Whether the name ends with the extension (".obj"), in capitals or not.
 bool has_extension(const std::string& path, const char* extension);
 
+// Vertices with exactly the same coordinates become the first of them; the others are left without facet, so that numbers
+// stay. O(n)
+void weld(MeshData& data);
+
 // The text of a mesh file, by the extension of its name: .obj (v, f, l) or .mesh. Other extensions are an error.
 std::string mesh_text(const std::string& path, const MeshData& data);
 void write_mesh(const std::string& path, const MeshData& data);

@@ -23,8 +23,9 @@ namespace polylab {
 
 inline constexpr const char* kVersion = "0.1.0";
 
-// Reads a surface (.obj, .stl, .mesh), or the surface of a tet mesh (.mesh), and builds it. Throws InputError.
-TriMesh read_surface(const std::string& path, const FeatureOptions& features = {});
+// Reads a surface (.obj, .stl, .mesh), or the surface of a tet mesh (.mesh), and builds it; with `welded`, after
+// weld(). Throws InputError.
+TriMesh read_surface(const std::string& path, const FeatureOptions& features = {}, bool welded = false);
 
 // The whole method: graph-cut, then search() with its defaults. statistics() tells what the result is worth.
 Labeling label_polycube(const TriMesh& mesh);
