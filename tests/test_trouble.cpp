@@ -179,7 +179,7 @@ std::map<std::string, Trouble> troubles() {
 }
 
 // Sanitizers reserve terabytes of addresses: the program does not start under a limit.
-bool limits_memory(const Scratch& scratch) { return scratch.run("--version", "ulimit -v 60000; ").status == 0; }
+bool limits_memory(const Scratch& scratch) { return scratch.run("--version", "ulimit -v 30000; ").status == 0; }
 
 }   // namespace
 
@@ -195,7 +195,7 @@ TEST_CASE("trouble: each row of the README's table ends as it says, and no troub
         const std::string arguments = trouble->second(scratch);
         const std::size_t before = scratch.entries();
         if (row.trouble == "too little memory" && !limits_memory(scratch)) continue;
-        const Result r = scratch.run(arguments, row.trouble == "too little memory" ? "ulimit -v 60000; " : "");
+        const Result r = scratch.run(arguments, row.trouble == "too little memory" ? "ulimit -v 30000; " : "");
         CAPTURE(r.err);
         CHECK(std::to_string(r.status) == row.status);
         CHECK(r.err.find(row.message) != std::string::npos);
