@@ -169,6 +169,22 @@ ExitStatus status_of(const Statistics& s) { return s.result_class() == Class::in
 
 std::string program_name() { return std::string("polylab ") + kVersion + " (commit " + POLYLAB_COMMIT + ")"; }
 
+// What `label` does unless told otherwise.
+std::vector<Report::Parameter> label_defaults() {
+    const InitialOptions initial;
+    std::string sensitivity, angle;
+    append(sensitivity, initial.sensitivity);
+    append(angle, initial.angle);
+    return {{"--method", "full"},
+            {"--routine", "both"},
+            {"--effort", std::to_string(kDefaultEffort)},
+            {"--compactness", std::to_string(initial.compactness)},
+            {"--fidelity", std::to_string(initial.fidelity)},
+            {"--sensitivity", sensitivity},
+            {"--angle", angle},
+            {"--features", "file"}};
+}
+
 // The page of `--report`. `layers` end with the labeling that it is about.
 std::string report_of(const char* command, const Arguments& arguments, const TriMesh& mesh, std::vector<Report::Layer> layers) {
     Report report;
@@ -176,7 +192,10 @@ std::string report_of(const char* command, const Arguments& arguments, const Tri
     report.title = part.substr(part.find_last_of("/\\") + 1);
     report.parameters = {{"command", command}, {"part", part}};
     if (arguments.operands.size() > 1) report.parameters.push_back({"labels", arguments.operands[1]});
-    for (const auto& [name, value] : arguments.options) report.parameters.push_back({name, value});
+    for (const auto& [name, value] : arguments.options) report.parameters.push_back({name, value.empty() ? "yes" : value});
+    if (std::string(command) == "label")
+        for (const auto& [name, value] : label_defaults())
+            if (!arguments.has(name)) report.parameters.push_back({name, value + " (default)"});
     report.parameters.push_back({"program", program_name()});
     if (build_graph(mesh, layers.back().labels).valid()) report.polycube = surface_polycube(mesh, layers.back().labels);
     report.layers = std::move(layers);
