@@ -96,15 +96,14 @@ doctest:
 
 # libFuzzer on each target of tests/fuzz_targets.cpp, for SECONDS each, from the seeds and what it found before.
 fuzz_targets = $(notdir $(wildcard tests/fuzz/seeds/*))
+.PHONY: $(fuzz_targets:%=fuzz-%)
 fuzz:
-	@$(MAKE) --no-print-directory config=fuzz CXX=clang++ $(builddir)/fuzz/fuzz
-	@for target in $(fuzz_targets); do \
-	    mkdir -p $(builddir)/fuzz/$$target; \
-	    $(builddir)/fuzz/fuzz $$target -max_total_time=$(SECONDS) -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
-	        -artifact_prefix=$(builddir)/fuzz/$$target- $(builddir)/fuzz/$$target tests/fuzz/seeds/$$target \
-	        >$(builddir)/fuzz/$$target.log 2>&1 || { tail -n 50 $(builddir)/fuzz/$$target.log; exit 1; }; \
-	    echo "  fuzz $$target: $$(sed -n 's/stat::number_of_executed_units: *//p' $(builddir)/fuzz/$$target.log) inputs"; \
-	done
+	@$(MAKE) --no-print-directory config=fuzz CXX=clang++ $(fuzz_targets:%=fuzz-%)
+$(fuzz_targets:%=fuzz-%): fuzz-%: $(builddir)/fuzz/fuzz
+	@mkdir -p $(builddir)/fuzz/$*
+	@$< $* -max_total_time=$(SECONDS) -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix=$(builddir)/fuzz/$*- \
+	    $(builddir)/fuzz/$* tests/fuzz/seeds/$* >$(builddir)/fuzz/$*.log 2>&1 || { tail -n 50 $(builddir)/fuzz/$*.log; exit 1; }
+	@echo "  fuzz $*: $$(sed -n 's/stat::number_of_executed_units: *//p' $(builddir)/fuzz/$*.log) inputs"
 $(builddir)/fuzz/fuzz: $(objects)/tests/fuzz/driver.o $(objects)/tests/fuzz_targets.o $(objects)/tests/shapes.o $(library)
 	$(say)
 	$(quiet)$(link) -fsanitize=fuzzer -o $@ $^

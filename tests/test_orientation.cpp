@@ -6,7 +6,6 @@
 
 #include <doctest/doctest.h>
 
-#include <ctime>
 #include <utility>
 
 using namespace polylab;
@@ -16,14 +15,6 @@ using shapes::joined;
 using shapes::moved;
 using shapes::scaled;
 using shapes::turned;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define POLYLAB_SANITIZED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer)
-#define POLYLAB_SANITIZED
-#endif
-#endif
 
 namespace {
 
@@ -45,15 +36,6 @@ void check_becomes(const MeshData& data, const MeshData& expected, Index compone
     CHECK(again.cavities == cavities);
     CHECK(again.turned_components == 0);
 }
-
-// Of processor time, so that a busy machine does not matter; builds for debugging may take their time.
-double seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
-
-#if defined(__OPTIMIZE__) && !defined(POLYLAB_SANITIZED)
-constexpr double kPatience = 1;
-#else
-constexpr double kPatience = 20;
-#endif
 
 }   // namespace
 
@@ -176,7 +158,7 @@ TEST_CASE("orientation: a cavity may touch the wall") {
         }
 }
 
-TEST_CASE("orientation: thousands of components take less than a second") {
+TEST_CASE("orientation: thousands of components") {
     // A big box of many facets, and in it a lattice of small cubes: as many along X as across, then all in one layer.
     const int sizes[][3] = {{20, 20, 20}, {1, 64, 64}};
     for (const auto& size : sizes) {
@@ -186,9 +168,7 @@ TEST_CASE("orientation: thousands of components take less than a second") {
         const MeshData small = cube(1);
         for (int i = 0; i < count; i++)
             append(data, moved(small, {2.0 * (i % size[0]), 2.0 * (i / size[0] % size[1]), 2.0 * (i / size[0] / size[1])}));
-        const double start = seconds();
         const TriMesh mesh = build_mesh(data);
-        CHECK(seconds() - start < kPatience);
         CHECK(mesh.components == count + 1);
         CHECK(mesh.cavities == count);
         CHECK(mesh.turned_components == count);
