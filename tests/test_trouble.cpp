@@ -202,7 +202,8 @@ TEST_CASE("trouble: each row of the README's table ends as it says, and no troub
         CHECK(std::count(r.err.begin(), r.err.end(), '\n') == (row.message.empty() ? 0 : 1));
         CHECK(scratch.entries() == before + (r.status == 2 ? 0 : 1));
     }
-    for (const auto& [name, trouble] : all) {
+    for (const auto& [row, trouble] : all) {
+        const std::string& name = row;   // what C++17's lambdas can capture
         CAPTURE(name);
         CHECK(seen.count(name) == 1);
     }
