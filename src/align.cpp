@@ -17,9 +17,9 @@ constexpr double kSkew = 0.5;                              // cosine beyond whic
 constexpr std::int64_t kLeastGain = (1 << 30) / 1000000;   // in steps
 
 // Sum of the area vectors of facets with similar normals, those in one half of the sphere turned around.
-using Groups = std::vector<Vec3>;
+using DirectionSums = std::vector<Vec3>;
 
-Groups grouped(const TriMesh& mesh) {
+DirectionSums grouped(const TriMesh& mesh) {
     std::map<std::array<std::int64_t, 3>, Vec3> cells;
     for (Index f = 0; f < mesh.facets(); f++) {
         Vec3 n = mesh.normal[f], area = mesh.area_vector(f);
@@ -29,13 +29,13 @@ Groups grouped(const TriMesh& mesh) {
         const bool turn = cell < turned;
         cells[turn ? turned : cell] += turn ? -area : area;
     }
-    Groups groups;
+    DirectionSums groups;
     for (const auto& [cell, sum] : cells) groups.push_back(sum);
     return groups;
 }
 
 // The mean of all groups within 2 degrees, wherever the grid has cut.
-Vec3 direction_at(const Groups& groups, const Vec3& start) {
+Vec3 direction_at(const DirectionSums& groups, const Vec3& start) {
     Vec3 sum;
     for (const Vec3& g : groups) {
         const double c = dot(unit(g), start);
@@ -44,9 +44,9 @@ Vec3 direction_at(const Groups& groups, const Vec3& start) {
     return sum;
 }
 
-std::vector<Vec3> heaviest_directions(const Groups& groups) {
+std::vector<Vec3> heaviest_directions(const DirectionSums& groups) {
     std::vector<Vec3> directions;
-    Groups left = groups;
+    DirectionSums left = groups;
     while (directions.size() < kDirections) {
         std::size_t best = 0;
         for (std::size_t i = 1; i < left.size(); i++)
@@ -61,7 +61,7 @@ std::vector<Vec3> heaviest_directions(const Groups& groups) {
     return directions;
 }
 
-std::int64_t quality(const Groups& groups, const Rotation& frame) {
+std::int64_t quality(const DirectionSums& groups, const Rotation& frame) {
     double sum = 0, area = 0;
     for (const Vec3& g : groups) {
         const Vec3 n = frame(unit(g));
@@ -97,7 +97,7 @@ Rotation closest_to_none(const Rotation& frame) {
 }   // namespace
 
 Rotation own_frame(const TriMesh& mesh) {
-    const Groups groups = grouped(mesh);
+    const DirectionSums groups = grouped(mesh);
     const std::vector<Vec3> directions = heaviest_directions(groups);
     Rotation best;
     std::int64_t best_quality = quality(groups, best) + kLeastGain;

@@ -114,7 +114,8 @@ void append_chunk(std::string& out, const char* kind, std::string content, char 
 
 // #FF0000 #990000 #FFFFFF #999999 #0000FF #000099 in linear light: 0x99 is 0.318547.
 constexpr double kDark = 0.318547;
-constexpr double kColour[kLabels][3] = {{1, 0, 0}, {kDark, 0, 0}, {1, 1, 1}, {kDark, kDark, kDark}, {0, 0, 1}, {0, 0, kDark}};
+constexpr double kMaterialColour[kLabels][3] = {{1, 0, 0}, {kDark, 0, 0}, {1, 1, 1}, {kDark, kDark, kDark},
+                                                {0, 0, 1}, {0, 0, kDark}};
 
 void write_accessor(JsonWriter& json, Index view, std::size_t offset, int component_type, std::size_t count, const char* type) {
     json.value("bufferView", view);
@@ -198,7 +199,7 @@ std::string glb_text(const TriMesh& mesh, const Labeling& labels) {
         json.value("name", kLabelName[l]);
         json.open_object("pbrMetallicRoughness");
         json.open_array("baseColorFactor");
-        for (const double c : kColour[l]) json.value("", c);
+        for (const double c : kMaterialColour[l]) json.value("", c);
         json.value("", 1.0);
         json.close_array();
         json.value("metallicFactor", 0.0);

@@ -8,13 +8,13 @@ namespace {
 
 constexpr int kShades = 16;
 // +X -X +Y -Y +Z -Z, then the stripes of invalid charts.
-constexpr unsigned char kColour[kLabels + 1][3] = {{255, 0, 0}, {153, 0, 0}, {255, 255, 255}, {153, 153, 153},
-                                                   {0, 0, 255}, {0, 0, 153}, {255, 31, 199}};
-constexpr unsigned char kBackground = 0, kBorder = 1, kFirstShade = 2;   // palette: then kShades per colour, dark to light
+constexpr unsigned char kPaletteColour[kLabels + 1][3] = {{255, 0, 0}, {153, 0, 0}, {255, 255, 255}, {153, 153, 153},
+                                                          {0, 0, 255}, {0, 0, 153}, {255, 31, 199}};
+constexpr unsigned char kBackground = 0, kBorderIndex = 1, kFirstShade = 2;   // palette: then kShades per colour, dark to light
 
 std::vector<unsigned char> make_palette() {
     std::vector<unsigned char> palette = {255, 255, 255, 24, 28, 34};
-    for (const auto& colour : kColour)
+    for (const auto& colour : kPaletteColour)
         for (int shade = 0; shade < kShades; shade++)
             for (const unsigned char c : colour)
                 palette.push_back(static_cast<unsigned char>(c * (60 * (kShades - 1) + 40 * shade) / (100 * (kShades - 1))));
@@ -175,7 +175,7 @@ std::string png_picture(const TriMesh& mesh, const LabelingGraph& graph, int siz
             if (c == kNone) {
                 pixels.push_back(kBackground);
             } else if (chart(x - 1, y) != c || chart(x + 1, y) != c || chart(x, y - 1) != c || chart(x, y + 1) != c) {
-                pixels.push_back(kBorder);
+                pixels.push_back(kBorderIndex);
             } else {
                 const bool stripe = !graph.charts[c].valid && (x + y) % 16 < 7;
                 const int colour = stripe ? kLabels : graph.charts[c].label;

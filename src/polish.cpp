@@ -10,11 +10,11 @@ namespace polylab {
 
 namespace {
 
-constexpr double kDataScale = 500;          // times 1 - cosine; an edge costs up to 100 at compactness 1
-constexpr int kWidths[] = {0, 1, 3, 6};     // rings of facets around those beside a boundary
-constexpr int kCompactness[] = {0, 1, 3};   // 0: every facet by itself; the score refuses what is too ragged
-constexpr double kAway = -0.4;              // cosine of normal and label, fidelity 0.3: the facet points away from its label
-constexpr Index kMostProposals = 20000;     // as in the routines; parts need up to 3000
+constexpr double kDataScale = 500;              // times 1 - cosine; an edge costs up to 100 at compactness 1
+constexpr int kBandWidths[] = {0, 1, 3, 6};     // rings of facets around those beside a boundary
+constexpr int kBandCompactness[] = {0, 1, 3};   // 0: every facet by itself; the score refuses what is too ragged
+constexpr double kAway = -0.4;                  // cosine of normal and label, fidelity 0.3: the facet points away from its label
+constexpr Index kMostPolishProposals = 20000;   // as in the routines; parts need up to 3000
 
 // Where i stands in a sorted list, or kNone.
 Index place(const std::vector<Index>& sorted, Index i) {
@@ -103,7 +103,7 @@ public:
     }
 
 private:
-    bool over() const { return proposals_tried_ >= kMostProposals || (options_.stop && options_.stop()); }
+    bool over() const { return proposals_tried_ >= kMostPolishProposals || (options_.stop && options_.stop()); }
 
     // The facets that differ, with those that share an edge with them; whether there are any.
     bool note_changes(const Labeling& before) {
@@ -155,9 +155,9 @@ private:
         std::sort(beside.begin(), beside.end());
         beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
         Step step{"redraw-boundary", b, false, false, 0, 0, state_.score, state_.score};
-        for (const int width : kWidths) {
+        for (const int width : kBandWidths) {
             const std::vector<Index> facets = widened(beside, width);
-            for (const int compactness : kCompactness) {
+            for (const int compactness : kBandCompactness) {
                 const Proposals proposals = redraw(mesh_, state_, facets, compactness);
                 for (std::size_t i = 0; i < proposals.size(); i++)
                     if (attempt(proposals[i], step) && i == 0) break;   // the whole, so no parts

@@ -6,7 +6,7 @@ namespace polylab {
 
 namespace {
 
-constexpr int kCompactness[] = {2, 3, 4, 6, 10};   // of other starts: ever smoother
+constexpr int kStartCompactness[] = {2, 3, 4, 6, 10};   // of other starts: ever smoother
 
 State from_start(const TriMesh& mesh, const Labeling& start, const RoutineOptions& options, int effort) {
     State state = run_routines(mesh, start, options);
@@ -22,7 +22,7 @@ State search(const TriMesh& mesh, const Labeling& start, const RoutineOptions& o
         step.in_sequence = true;
         if (options.trace) options.trace(step);
     };
-    for (const int compactness : kCompactness) {
+    for (const int compactness : kStartCompactness) {
         const bool done = best.score.invalid == 0 && best.score.turning_points == 0;
         if (effort < 2 || (effort == 2 && done) || (options.stop && options.stop())) break;
         InitialOptions initial;

@@ -173,34 +173,34 @@ void append(std::string& out, Index i) {
 
 namespace {
 
-enum class Kind : char { ordinary, blank, line_end, hash, zero };
+enum class CharacterKind : char { ordinary, blank, line_end, hash, zero };
 
-constexpr std::array<Kind, 256> kinds() {
-    std::array<Kind, 256> table = {};
-    for (const char c : {' ', '\t', '\v', '\f'}) table[static_cast<unsigned char>(c)] = Kind::blank;
-    table['\n'] = table['\r'] = Kind::line_end;
-    table['#'] = Kind::hash;
-    table[0] = Kind::zero;
+constexpr std::array<CharacterKind, 256> kinds() {
+    std::array<CharacterKind, 256> table = {};
+    for (const char c : {' ', '\t', '\v', '\f'}) table[static_cast<unsigned char>(c)] = CharacterKind::blank;
+    table['\n'] = table['\r'] = CharacterKind::line_end;
+    table['#'] = CharacterKind::hash;
+    table[0] = CharacterKind::zero;
     return table;
 }
-constexpr std::array<Kind, 256> kKind = kinds();
+constexpr std::array<CharacterKind, 256> kCharacterKind = kinds();
 
-inline Kind kind(char c) { return kKind[static_cast<unsigned char>(c)]; }
+inline CharacterKind kind(char c) { return kCharacterKind[static_cast<unsigned char>(c)]; }
 
 }   // namespace
 
 void Scanner::skip_blanks() {
-    while (at_ < text_.size() && kind(text_[at_]) == Kind::blank) at_++;
+    while (at_ < text_.size() && kind(text_[at_]) == CharacterKind::blank) at_++;
     if (at_ < text_.size() && text_[at_] == '#')
-        while (at_ < text_.size() && kind(text_[at_]) != Kind::line_end) at_++;
+        while (at_ < text_.size() && kind(text_[at_]) != CharacterKind::line_end) at_++;
 }
 
 std::string_view Scanner::token_in_line() {
     skip_blanks();
     const std::size_t begin = at_;
-    while (at_ < text_.size() && kind(text_[at_]) == Kind::ordinary) at_++;
+    while (at_ < text_.size() && kind(text_[at_]) == CharacterKind::ordinary) at_++;
     // A run of zero bytes is a (wrong) token of its own.
-    while (at_ == begin && at_ < text_.size() && kind(text_[at_]) == Kind::zero) at_++;
+    while (at_ == begin && at_ < text_.size() && kind(text_[at_]) == CharacterKind::zero) at_++;
     return text_.substr(begin, at_ - begin);
 }
 
@@ -213,7 +213,7 @@ std::string_view Scanner::token() {
 }
 
 bool Scanner::next_line() {
-    while (at_ < text_.size() && kind(text_[at_]) != Kind::line_end) at_++;
+    while (at_ < text_.size() && kind(text_[at_]) != CharacterKind::line_end) at_++;
     if (at_ >= text_.size()) return false;
     at_ += text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n' ? 2 : 1;
     line_++;
