@@ -369,7 +369,8 @@ int run_surface(const Arguments& arguments) {
 int run_polycube(const Arguments& arguments) {
     const Console console(arguments);
     const std::string output = arguments.get("-o", "-");
-    const TriMesh mesh = read_part(arguments, console);
+    std::vector<double> rotation;
+    const TriMesh mesh = read_part(arguments, console, rotation);
     const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
     MeshData polycube = mesh_data(mesh);
     polycube.points = surface_polycube(mesh, labels);
@@ -377,7 +378,7 @@ int run_polycube(const Arguments& arguments) {
     const Distortion d = distortion(mesh, polycube.points);
     result.statistics.distortion = d;
     const std::string text = output == "-" ? obj_text(polycube) : mesh_text(output, polycube);
-    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph));
+    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph), rotation);
     std::vector<Output> outputs = {{output, text}};
     if (arguments.has("--stats")) outputs.push_back({arguments.get("--stats"), json});
     write_files(outputs);
@@ -484,6 +485,8 @@ const std::vector<Command>& commands() {
          "Writes a labeled surface for other programs.\n\n" + kPartHelp,
          {{"-o", "FILE", ".vtk (ParaView), .glb (coloured), .mesh (labels as references) or .obj (PolyCut's materials)"},
           kFeatures,
+          kAlign,
+          kWeld,
           kQuiet,
           kVerbose},
          run_export},
@@ -495,6 +498,8 @@ const std::vector<Command>& commands() {
          {{"-o", "FILE", "the polycube: .obj or .mesh; as .obj to standard output without this, or with -"},
           {"--stats", "JSON", "also write the statistics, with the distortion of the polycube"},
           kFeatures,
+          kAlign,
+          kWeld,
           kQuiet,
           kVerbose},
          run_polycube},

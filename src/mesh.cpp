@@ -179,6 +179,7 @@ void find_fans(TriMesh& mesh) {
             h = mesh.ccw(h);
         } while (h != first);
     }
+    std::stable_sort(mesh.fans.begin(), mesh.fans.end(), [&](Index a, Index b) { return mesh.from(a) < mesh.from(b); });
     mesh.isolated_vertices = static_cast<Index>(std::count(mesh.outgoing.begin(), mesh.outgoing.end(), kNone));
 }
 
@@ -250,6 +251,13 @@ void validate(const TriMesh& mesh) {
         kept += mesh.feature[h];
     }
     require(kept == 2 * mesh.features_kept, "count of feature edges", kept);
+    std::vector<char> met(n, 0);
+    for (Index v = 0; v < mesh.vertices(); v++)
+        mesh.for_each_leaving(v, [&](Index h) {
+            require(mesh.from(h) == v && !met[h], "fan", h);
+            met[h] = 1;
+        });
+    require(std::count(met.begin(), met.end(), 1) == n, "fans", n);
 }
 
 }   // namespace polylab

@@ -3,7 +3,6 @@
 #include "polylab/initial_labeling.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 namespace polylab {
@@ -53,26 +52,18 @@ Proposals redraw(const TriMesh& mesh, const State& state, std::vector<Index> fac
     std::sort(facets.begin(), facets.end());
     facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
     bool occurs[kLabels] = {};
-    PottsEnergy energy;
     Labeling labels;
     for (const Index f : facets) {
         labels.push_back(state.labels[f]);
         occurs[state.labels[f]] = true;
-        std::array<Index, kLabels> cost;
-        for (Label l = 0; l < kLabels; l++) cost[l] = static_cast<Index>(kDataScale * (1 - along(mesh.normal[f], l)) + 0.5);
-        for (Index h = 3 * f; h < 3 * f + 3; h++) {
-            const Index g = mesh.right(h), other = place(facets, g);
-            const int weight = mesh.feature[h] ? 0 : pairwise_cost(mesh.normal[f], mesh.normal[g], compactness);
-            if (other == kNone) {   // the surroundings are fixed: a different label costs the edge, on one site alone
-                occurs[state.labels[g]] = true;
-                for (Label l = 0; l < kLabels; l++) cost[l] += l == state.labels[g] ? 0 : weight;
-            } else if (f < g) {
-                energy.ends.insert(energy.ends.end(), {static_cast<Index>(energy.data.size()), other});
-                energy.weight.push_back(weight);
-            }
-        }
-        energy.data.push_back(cost);
+        for (Index h = 3 * f; h < 3 * f + 3; h++) occurs[state.labels[mesh.right(h)]] = true;
     }
+    const PottsEnergy energy = local_energy(
+        mesh, state, facets,
+        [&](Index f, Label l) { return static_cast<Index>(kDataScale * (1 - along(mesh.normal[f], l)) + 0.5); },
+        [&](Index h) {
+            return mesh.feature[h] ? 0 : pairwise_cost(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)], compactness);
+        });
     Expansion expansion(energy);
     for (Label l = 0; l < kLabels; l++)
         if (occurs[l]) expansion.move(l, labels);

@@ -171,28 +171,10 @@ Cut removal_cut(const TriMesh& mesh, const State& state, const std::vector<Index
         cut.facets.insert(cut.facets.end(), facets.begin(), facets.end());
     }
     std::sort(cut.facets.begin(), cut.facets.end());   // by number, all different
-    const auto site = [&](Index f) {
-        return static_cast<Index>(std::lower_bound(cut.facets.begin(), cut.facets.end(), f) - cut.facets.begin());
-    };
-    for (const Index f : cut.facets) {
-        const Index c = state.graph.chart[f];
-        std::array<Index, kLabels> cost;
-        for (Label l = 0; l < kLabels; l++) cost[l] = data_cost(mesh.normal[f], l, 1) + (allowed[c][l] ? 0 : kForbidden);
-        cut.energy.data.push_back(cost);
-    }
-    for (const Index f : cut.facets) {
-        for (Index h = 3 * f; h < 3 * f + 3; h++) {
-            const Index g = mesh.right(h);
-            const int weight = pairwise_cost(mesh.normal[f], mesh.normal[g], compactness);
-            if (!removed[state.graph.chart[g]]) {   // the surroundings are fixed: a different label costs the edge, on one site
-                                                    // alone
-                for (Label l = 0; l < kLabels; l++) cut.energy.data[site(f)][l] += l == state.labels[g] ? 0 : weight;
-            } else if (f < g) {
-                cut.energy.ends.insert(cut.energy.ends.end(), {site(f), site(g)});
-                cut.energy.weight.push_back(weight);
-            }
-        }
-    }
+    cut.energy = local_energy(
+        mesh, state, cut.facets,
+        [&](Index f, Label l) { return data_cost(mesh.normal[f], l, 1) + (allowed[state.graph.chart[f]][l] ? 0 : kForbidden); },
+        [&](Index h) { return pairwise_cost(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)], compactness); });
     return cut;
 }
 

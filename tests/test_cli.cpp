@@ -532,3 +532,28 @@ TEST_CASE("cli: polycube") {
     check_refused(scratch, "polycube cube.obj short.txt", "short.txt");
     check_refused(scratch, "polycube cube.obj naive.txt -o p.txt", "p.txt");
 }
+
+TEST_CASE("cli: labels of a part that was welded or turned go on to its polycube and to other programs") {
+    const Scratch scratch;
+    MeshData loose = cube(1);   // every facet with vertices of its own
+    std::vector<Vec3> points;
+    for (Index& v : loose.triangles) {
+        points.push_back(loose.points[v]);
+        v = static_cast<Index>(points.size()) - 1;
+    }
+    loose.points = points;
+    scratch.write("loose.obj", obj_text(loose));
+    check_refused(scratch, "export loose.obj naive.txt -o l.vtk", "--weld makes them one");
+    check_refused(scratch, "polycube loose.obj naive.txt -o p.obj", "--weld makes them one");
+    CHECK(scratch.run("export loose.obj naive.txt -o l.vtk --weld").status == 0);
+    CHECK(scratch.run("polycube loose.obj naive.txt -o p.obj --weld").status == 0);
+    CHECK(read_vtk(scratch.read("l.vtk"), "l.vtk").triangles.size() == 36);
+
+    MeshData turned = cube(1);   // by the angle of a 3-4-5 triangle
+    for (Vec3& p : turned.points) p = {0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z};
+    scratch.write("turned.obj", obj_text(turned));
+    CHECK(scratch.run("polycube turned.obj naive.txt -o p.obj --align --stats p.json").status == 0);
+    CHECK(scratch.read("p.json").find("\"rotation\"") != std::string::npos);
+    const TriMesh straight = build_mesh(read_obj(scratch.read("p.obj"), "p.obj"));
+    for (const Vec3& n : straight.normal) CHECK(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}) == doctest::Approx(1));
+}

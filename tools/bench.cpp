@@ -49,8 +49,8 @@ int main(int argc, char** argv) {
             operators[step.operation] += cpu_ms() - last;
             last = cpu_ms();
         };
-        labels = run_routines(mesh, std::move(labels), options).labels;
-        lap("routines");
+        labels = search(mesh, labels, options).labels;
+        lap("search");
         for (const auto& [name, ms] : operators) std::printf("%s %.3f %ld\n", name.c_str(), ms, used().ru_maxrss);
         write_file("/dev/null", labels_text(labels));
         lap("write");

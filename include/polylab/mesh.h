@@ -19,6 +19,7 @@
 #include "polylab/base.h"
 #include "polylab/vec3.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -54,7 +55,7 @@ struct TriMesh {
     std::vector<Vec3> normal;      // facet -> unit normal, outward; zero where the facet has no area
     std::vector<char> feature;     // half-edge -> 1 on a kept feature edge (both half-edges have it)
     std::vector<Index> outgoing;   // vertex -> the smallest half-edge that leaves it, kNone without facet
-    std::vector<Index> fans;       // of vertices with several fans: the smallest half-edge of each further fan; increasing
+    std::vector<Index> fans;       // of vertices with several fans: the smallest half-edge of each further fan, by vertex
     double mean_edge = 0;          // mean length of all half-edges, added by number: the unit of lengths of all operators
 
     // What construction met, for messages and statistics.
@@ -92,8 +93,8 @@ struct TriMesh {
             } while (h != first);
         };
         if (outgoing[vertex] != kNone) turn(outgoing[vertex]);
-        for (const Index first : fans)
-            if (from(first) == vertex) turn(first);
+        auto fan = std::lower_bound(fans.begin(), fans.end(), vertex, [&](Index h, Index v) { return from(h) < v; });
+        for (; fan != fans.end() && from(*fan) == vertex; fan++) turn(*fan);
     }
 
     Vec3 vector(Index h) const { return points[to(h)] - points[from(h)]; }

@@ -3,8 +3,10 @@
 // All of them read a state and change nothing. Lengths are in mean edges of the mesh, so nothing depends on its scale.
 #pragma once
 
+#include "polylab/alpha_expansion.h"
 #include "polylab/state.h"
 
+#include <functional>
 #include <vector>
 
 namespace polylab {
@@ -56,6 +58,11 @@ std::vector<Halfedges> contours(const TriMesh& mesh, const State& state, Index c
 
 // A contour cut into the boundaries it consists of, in order.
 std::vector<Halfedges> runs_of(const State& state, const Halfedges& contour);
+
+// The energy of labels for some facets (increasing; site i is facets[i]) while all others keep theirs: data(f, l) per facet,
+// weight(h) per edge between different labels. An edge to a fixed facet costs its one site. O(n log n) in the facets
+PottsEnergy local_energy(const TriMesh& mesh, const State& state, const std::vector<Index>& facets,
+                         const std::function<Index(Index f, Label l)>& data, const std::function<Index(Index h)>& weight);
 
 // Sum of the facets' unit normals.
 Vec3 mean_normal(const TriMesh& mesh, const std::vector<Index>& facets);
