@@ -52,14 +52,67 @@ void MaxFlow::add_edge_capacity(Index e, Index there, Index back) {
 void MaxFlow::add_terminals(Index node, Index from_source, Index to_sink) {
     assert(from_source >= 0 && to_sink >= 0);
     // What goes straight through the node is flow already; terminal_ holds what is left at one of its sides.
-    const Index source = from_source + std::max(nodes_[node].terminal, 0), sink = to_sink + std::max(-nodes_[node].terminal, 0);
+    const std::int64_t terminal = nodes_[node].terminal;
+    const std::int64_t source = from_source + std::max<std::int64_t>(terminal, 0),
+                       sink = to_sink + std::max<std::int64_t>(-terminal, 0);
     flow_ += std::min(source, sink);
     nodes_[node].terminal = source - sink;
+}
+
+// Moves what the sources have (sign 1) towards the sinks, or what the sinks lack (-1) towards the sources: all of it at
+// once, from the farthest nodes to the nearest, each node passing on what it has to those one arc nearer. Where it can't go
+// on it stays, as capacity between the terminal and that node. The value of every cut stays the same, but for the flow that
+// has arrived, so the minimum cuts are those of the graph as it was. Returns what moved over
+// all arcs. O(nodes + edges)
+std::int64_t MaxFlow::sweep(int sign) {
+    find_distances(sign);
+    std::int64_t moved = 0;
+    for (std::size_t k = active_count_; k-- > 0;) {
+        Node& node = nodes_[active_[k]];
+        for (Index arc = first_[active_[k]]; arc < first_[active_[k] + 1] && sign * node.terminal > 0; arc++) {
+            Node& nearer = nodes_[arcs_[arc].head];
+            if (nearer.distance + 1 != node.distance) continue;
+            const Tree tree = sign > 0 ? Tree::source : Tree::sink;
+            const auto amount = static_cast<Index>(std::min<std::int64_t>(sign * node.terminal, from_root(arc, tree)));
+            from_root(arc, tree) -= amount;
+            toward_root(arc, tree) += amount;
+            if (sign * nearer.terminal < 0) flow_ += std::min<std::int64_t>(amount, -sign * nearer.terminal);
+            node.terminal -= sign * amount;
+            nearer.terminal += sign * amount;
+            moved += amount;
+        }
+    }
+    active_count_ = 0;
+    return moved;
+}
+
+// Breadth-first from the sinks (sign 1) or the sources (-1), against the direction in which a sweep moves, until all nodes
+// that have something to move are met. Those that were met are in active_ then, nearest first.
+void MaxFlow::find_distances(int sign) {
+    Index waiting = 0;
+    for (Index i = 0; i < nodes(); i++) {
+        const bool end = sign * nodes_[i].terminal < 0;
+        nodes_[i].distance = end ? 0 : kNone;
+        if (end) active_[active_count_++] = i;
+        waiting += sign * nodes_[i].terminal > 0;
+    }
+    for (std::size_t k = 0; k < active_count_ && waiting > 0; k++) {
+        const Index near = active_[k];
+        for (Index arc = first_[near]; arc < first_[near + 1]; arc++) {
+            Node& other = nodes_[arcs_[arc].head];
+            if (other.distance != kNone || toward_root(arc, sign > 0 ? Tree::source : Tree::sink) == 0) continue;
+            other.distance = nodes_[near].distance + 1;
+            active_[active_count_++] = arcs_[arc].head;
+            waiting -= sign * other.terminal > 0;
+        }
+    }
 }
 
 // Grows the two trees from the terminals until they meet, augments the path, repairs the trees, and goes on from there:
 // when no active node is left, no residual path joins source and sink.
 std::int64_t MaxFlow::solve() {
+    // In turn from both ends: each direction soon stands before what the other one opens. The trees take what little is left.
+    for (int sign = 1; sweep(sign) > nodes(); sign = -sign) continue;
     for (Index i = 0; i < nodes(); i++) {
         if (nodes_[i].terminal == 0) continue;
         nodes_[i].tree = nodes_[i].terminal > 0 ? Tree::source : Tree::sink;
@@ -124,7 +177,7 @@ void MaxFlow::augment(Index arc) {
         Index i = end;
         for (; nodes_[i].parent != kRoot; i = arcs_[nodes_[i].parent].head)
             amount = std::min(amount, toward_root(nodes_[i].parent, nodes_[i].tree));
-        amount = std::min(amount, std::abs(nodes_[i].terminal));
+        amount = static_cast<Index>(std::min<std::int64_t>(amount, std::abs(nodes_[i].terminal)));
     }
     augmentations_++;
     flow_ += amount;

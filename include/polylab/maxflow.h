@@ -1,7 +1,8 @@
 // maxflow.h: maximum flow and minimum cut on graphs with integer capacities.
 //
 // The algorithm of Y. Boykov, V. Kolmogorov. An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy
-// Minimization in Vision. PAMI 2004, written from that paper.
+// Minimization in Vision. PAMI 2004, written from that paper. What lies between far ends is moved there before, in bulk, by
+// sweeps over all nodes: augmenting paths one by one would walk the same long way thousands of times.
 //
 // Why the cut does not depend on which maximum flow was found: the minimum cuts of a graph are closed under union and
 // intersection, so there is one with the largest source side, and it is unique. A node is outside of it exactly when it
@@ -47,6 +48,8 @@ public:
 private:
     enum class Tree : char { none, source, sink };
 
+    std::int64_t sweep(int sign);
+    void find_distances(int sign);
     bool join_or_meet(Index node, Index arc);
     void augment(Index arc);
     Index& toward_root(Index arc, Tree tree);
@@ -62,12 +65,12 @@ private:
         Index residual;   // capacity left
     };
     struct Node {
-        Index terminal = 0;       // residual capacity from the source (> 0) or to the sink (< 0)
-        Index parent = kNone;     // arc to its parent, or kRoot, kOrphan, kNone
-        Index stamp = 0;          // augmentation after which its distance was found
-        Index distance = 0;       // number of arcs to its terminal, at that time
-        Tree tree = Tree::none;   // search tree it belongs to
-        bool queued = false;      // in active_
+        std::int64_t terminal = 0;   // residual capacity from the source (> 0) or to the sink (< 0)
+        Index parent = kNone;        // arc to its parent, or kRoot, kOrphan, kNone
+        Index stamp = 0;             // augmentation after which its distance was found
+        Index distance = 0;          // number of arcs to its terminal, at that time; in a sweep, to the nearest one, or kNone
+        Tree tree = Tree::none;      // search tree it belongs to
+        bool queued = false;         // in active_
     };
 
     std::vector<Index> first_;   // the arcs of node i are first_[i] .. first_[i+1] - 1
@@ -75,7 +78,7 @@ private:
     std::vector<Index> arc_of_edge_;   // edge -> its two arcs, there and back
     std::vector<Node> nodes_;
 
-    std::vector<Index> active_;   // ring buffer of nodes whose arcs may lead out of their tree
+    std::vector<Index> active_;   // ring buffer of nodes whose arcs may lead out of their tree; in a sweep, nodes by distance
     std::size_t active_begin_ = 0, active_count_ = 0;
     std::vector<Index> orphans_;   // nodes that lost their parent
     Index augmentations_ = 0;
