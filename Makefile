@@ -78,7 +78,7 @@ $(objects)/flags: FORCE
 $(objects)/commit: FORCE
 	$(call stamp,$(commit))
 
--include $(library_objects:.o=.d) $(test_objects:.o=.d) $(objects)/tests/fuzz/driver.d $(objects)/src/main.d
+-include $(library_objects:.o=.d) $(test_objects:.o=.d) $(objects)/tools/bench.d $(objects)/tools/subdivide.d $(objects)/tests/fuzz/driver.d $(objects)/src/main.d
 
 demo: $(program)
 	@mkdir -p $(out)/demo

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace polylab {
@@ -13,14 +14,45 @@ namespace {
 constexpr double kFlat = 1e-9;   // sine of the angle below which an edge counts as flat
 constexpr Index kBorder = -2;    // boundary[h] of a border that is not traced yet
 
-// Builds the graph phase by phase; `graph` arrives with empty element lists and array sizes set.
+// Builds the graph phase by phase: charts and borders anew or from those that were, then the rest along the borders.
 class Builder {
 public:
     Builder(const TriMesh& mesh, const Labeling& labels, LabelingGraph& graph) : mesh_(mesh), labels_(labels), g_(graph) {}
 
     void build() {
+        g_.charts.clear();
+        g_.chart.assign(mesh_.facets(), kNone);
+        g_.boundary.assign(mesh_.halfedges(), kNone);
+        g_.corner.assign(mesh_.vertices(), kNone);
+        g_.borders.clear();
+        for (Index h = 0; h < mesh_.halfedges(); h++)
+            if (is_border(h)) g_.borders.push_back(h);
         find_charts();
-        list_borders();
+        build_along_borders();
+    }
+
+    void update(const std::vector<Index>& changed) {
+        for (const Index h : g_.borders) {
+            g_.boundary[h] = kNone;
+            g_.corner[mesh_.from(h)] = kNone;
+        }
+        update_charts(changed);
+        update_borders(changed);
+        build_along_borders();
+    }
+
+private:
+    bool is_border(Index h) const { return labels_[mesh_.left(h)] != labels_[mesh_.right(h)]; }
+
+    void build_along_borders() {
+        g_.boundaries.clear();
+        g_.corners.clear();
+        g_.rings.clear();
+        g_.halfedges.clear();
+        g_.chart_boundaries.clear();
+        g_.ring_halfedges.clear();
+        g_.invalid_charts = g_.invalid_boundaries = g_.invalid_corners = 0;
+        for (const Index h : g_.borders) g_.boundary[h] = kBorder;
         find_rings();
         number_corners();
         trace_boundaries();
@@ -28,83 +60,112 @@ public:
         judge();
     }
 
-private:
-    // Flood from the smallest facet that has no chart yet, so charts are numbered by their smallest facet. What stops the
-    // flood is a border.
+    // Charts are numbered by their smallest facet, since each is flooded from the smallest facet that has no chart yet.
     void find_charts() {
-        for (Index seed = 0; seed < mesh_.facets(); seed++) {
-            if (g_.chart[seed] != kNone) continue;
-            const Index c = static_cast<Index>(g_.charts.size());
-            Chart chart;
-            chart.label = labels_[seed];
-            chart.smallest_facet = seed;
-            g_.chart[seed] = c;
-            stack_.assign(1, seed);
-            while (!stack_.empty()) {
-                const Index f = stack_.back();
-                stack_.pop_back();
-                chart.facets++;
-                for (Index h = 3 * f; h < 3 * f + 3; h++) {
-                    const Index other = mesh_.right(h);
-                    if (labels_[other] != chart.label) {
-                        g_.boundary[h] = kBorder;
-                    } else if (g_.chart[other] == kNone) {
-                        g_.chart[other] = c;
-                        stack_.push_back(other);
-                    }
-                }
+        for (Index f = 0; f < mesh_.facets(); f++)
+            if (g_.chart[f] == kNone) flood(f, 0);
+    }
+
+    // A new chart. Its facets get its number plus `shift`.
+    void flood(Index seed, Index shift) {
+        const Index number = static_cast<Index>(g_.charts.size()) + shift;
+        Chart chart;
+        chart.label = labels_[seed];
+        chart.smallest_facet = seed;
+        g_.chart[seed] = number;
+        stack_.assign(1, seed);
+        while (!stack_.empty()) {
+            const Index f = stack_.back();
+            stack_.pop_back();
+            chart.facets++;
+            for (Index h = 3 * f; h < 3 * f + 3; h++) {
+                const Index other = mesh_.right(h);
+                if (labels_[other] != chart.label || g_.chart[other] == number) continue;
+                g_.chart[other] = number;
+                stack_.push_back(other);
             }
-            g_.charts.push_back(chart);
+        }
+        g_.charts.push_back(chart);
+    }
+
+    // Charts that lose or gain facets are flooded anew, the others get new numbers. While old and new numbers stand side by
+    // side, the new ones of flooded charts are shifted beyond the old ones.
+    void update_charts(const std::vector<Index>& changed) {
+        const std::vector<Chart> old = std::move(g_.charts);
+        g_.charts.clear();
+        const Index shift = static_cast<Index>(old.size());
+        std::vector<char> is_new(old.size(), 0);
+        for (const Index f : changed) {
+            is_new[g_.chart[f]] = 1;
+            for (Index h = 3 * f; h < 3 * f + 3; h++)
+                if (!is_border(h)) is_new[g_.chart[mesh_.right(h)]] = 1;
+        }
+        std::vector<Index> number(old.size(), kNone);
+        for (Index f = 0; f < mesh_.facets(); f++) {
+            Index& c = g_.chart[f];
+            if (c < shift && is_new[c]) {
+                flood(f, shift);
+            } else if (c < shift && number[c] == kNone) {
+                number[c] = static_cast<Index>(g_.charts.size());
+                g_.charts.push_back(old[c]);
+                g_.charts.back().boundaries = {};
+            }
+            c = c < shift ? number[c] : c - shift;
         }
     }
 
-    void list_borders() {
-        for (Index h = 0; h < mesh_.halfedges(); h++)
-            if (g_.boundary[h] == kBorder) borders_.push_back(h);
+    void update_borders(const std::vector<Index>& changed) {
+        std::vector<Index> near, kept;
+        for (const Index f : changed)
+            for (Index h = 3 * f; h < 3 * f + 3; h++) near.insert(near.end(), {h, mesh_.opposite[h]});
+        std::sort(near.begin(), near.end());   // tie: equal numbers, of which one is kept
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+        std::set_difference(g_.borders.begin(), g_.borders.end(), near.begin(), near.end(), std::back_inserter(kept));
+        near.erase(std::remove_if(near.begin(), near.end(), [&](Index h) { return !is_border(h); }), near.end());
+        g_.borders.clear();
+        std::merge(kept.begin(), kept.end(), near.begin(), near.end(), std::back_inserter(g_.borders));
     }
 
     // Rings of the vertices with three and more border half-edges; g_.corner holds their number meanwhile. Most vertices
     // on a border have two, and need no look around. Two solids touching there may each have two: no corner either.
     void find_rings() {
-        for (const Index h : borders_) g_.corner[mesh_.from(h)]++;   // from kNone = -1: two borders make 1
-        ring_of_.assign(borders_.empty() ? 0 : mesh_.halfedges(), kNone);
-        for (const Index h : borders_) {
-            if (g_.corner[mesh_.from(h)] + 1 < 3 || ring_of_[h] != kNone) continue;
+        for (const Index h : g_.borders) g_.corner[mesh_.from(h)]++;   // from kNone = -1: two borders make 1
+        for (const Index h : g_.borders) {
+            if (g_.corner[mesh_.from(h)] + 1 < 3) continue;
             Ring ring;
-            ring.halfedges.first = ring.halfedges.last = static_cast<Index>(g_.ring_halfedges.size());
-            const Index number = static_cast<Index>(g_.rings.size());
+            ring.halfedges.first = static_cast<Index>(g_.ring_halfedges.size());
             Index around = h;
             do {
-                ring_of_[around] = number;
                 g_.ring_halfedges.push_back(around);
                 around = g_.next_border_ccw(mesh_, around);
-            } while (around != h);
+            } while (around > h);
             ring.halfedges.last = static_cast<Index>(g_.ring_halfedges.size());
-            g_.rings.push_back(ring);
+            if (around == h && ring.halfedges.size() >= 3)   // else it is met from a smaller one, or no corner
+                g_.rings.push_back(ring);
+            else
+                g_.ring_halfedges.resize(ring.halfedges.first);
         }
     }
 
     Index ring_vertex(const Ring& ring) const { return mesh_.from(g_.ring_halfedges[ring.halfedges.first]); }
 
-    // Drops the rings that are no corner, sorts the others by vertex, and makes their vertices corners.
+    // Sorts the rings by vertex, and makes their vertices corners.
     void number_corners() {
-        for (const Index h : borders_) g_.corner[mesh_.from(h)] = kNone;
-        std::vector<Ring> rings;
-        for (const Ring& ring : g_.rings)
-            if (ring.halfedges.size() >= 3) rings.push_back(ring);
-        std::sort(rings.begin(), rings.end(), [&](const Ring& a, const Ring& b) {   // tie: by smallest half-edge, all different
-            const Index v = ring_vertex(a), w = ring_vertex(b);
-            return v < w || (v == w && g_.ring_halfedges[a.halfedges.first] < g_.ring_halfedges[b.halfedges.first]);
-        });
+        for (const Index h : g_.borders) g_.corner[mesh_.from(h)] = kNone;
+        std::sort(g_.rings.begin(), g_.rings.end(),
+                  [&](const Ring& a, const Ring& b) {   // tie: by smallest half-edge, all different
+                      const Index v = ring_vertex(a), w = ring_vertex(b);
+                      return v < w || (v == w && g_.ring_halfedges[a.halfedges.first] < g_.ring_halfedges[b.halfedges.first]);
+                  });
         const std::vector<Index> found = std::move(g_.ring_halfedges);
         g_.ring_halfedges.clear();
-        for (const Index h : found) ring_of_[h] = kNone;
-        for (Ring& ring : rings) {
+        for (Index r = 0; r < static_cast<Index>(g_.rings.size()); r++) {
+            Ring& ring = g_.rings[r];
             const Range old = ring.halfedges;
             ring.halfedges.first = static_cast<Index>(g_.ring_halfedges.size());
             g_.ring_halfedges.insert(g_.ring_halfedges.end(), found.begin() + old.first, found.begin() + old.last);
             ring.halfedges.last = static_cast<Index>(g_.ring_halfedges.size());
-            const Index v = ring_vertex(ring), r = static_cast<Index>(&ring - rings.data());
+            const Index v = ring_vertex(ring);
             if (g_.corner[v] == kNone) {
                 g_.corner[v] = static_cast<Index>(g_.corners.size());
                 Corner corner;
@@ -116,20 +177,26 @@ private:
             Corner& corner = g_.corners[ring.corner];
             corner.rings.last = r + 1;
             corner.valence += ring.halfedges.size();
-            for (Index i = ring.halfedges.first; i < ring.halfedges.last; i++) ring_of_[g_.ring_halfedges[i]] = r;
         }
-        g_.rings = std::move(rings);
     }
 
     // The corner at which border h starts, or kNone where its fan has two borders only.
-    Index corner_at(Index h) const { return ring_of_[h] == kNone ? kNone : g_.rings[ring_of_[h]].corner; }
+    Index corner_at(Index h) const {
+        const Index c = g_.corner[mesh_.from(h)];
+        if (c == kNone) return kNone;
+        for (Index r = g_.corners[c].rings.first; r < g_.corners[c].rings.last; r++)
+            for (Index i = g_.rings[r].halfedges.first; i < g_.rings[r].halfedges.last; i++)
+                if (g_.ring_halfedges[i] == h) return c;
+        return kNone;
+    }
 
     // h is the smallest border half-edge of its boundary: walk back to the start, then forward.
     void trace_boundaries() {
-        for (const Index h : borders_) {
+        for (const Index h : g_.borders) {
             if (g_.boundary[h] != kBorder) continue;
             const Index b = static_cast<Index>(g_.boundaries.size());
             Boundary boundary;
+            boundary.smallest = h;
             Index first = h;
             while (corner_at(first) == kNone) {
                 // The other border at this vertex arrives here with the same chart at its left.
@@ -209,8 +276,6 @@ private:
     const Labeling& labels_;
     LabelingGraph& g_;
     std::vector<Index> stack_;
-    std::vector<Index> borders_;   // border half-edges, increasing
-    std::vector<Index> ring_of_;   // half-edge -> ring in which it leaves a corner, or kNone
 };
 
 }   // namespace
@@ -230,23 +295,12 @@ Index LabelingGraph::next_border_cw(const TriMesh& mesh, Index h) const {
 LabelingGraph build_graph(const TriMesh& mesh, const Labeling& labels, bool allow_opposite) {
     LabelingGraph graph;
     graph.allow_opposite = allow_opposite;
-    build_graph(mesh, labels, graph);
+    Builder(mesh, labels, graph).build();
     return graph;
 }
 
-void build_graph(const TriMesh& mesh, const Labeling& labels, LabelingGraph& graph) {
-    graph.charts.clear();
-    graph.boundaries.clear();
-    graph.corners.clear();
-    graph.rings.clear();
-    graph.halfedges.clear();
-    graph.chart_boundaries.clear();
-    graph.ring_halfedges.clear();
-    graph.chart.assign(mesh.facets(), kNone);
-    graph.boundary.assign(mesh.halfedges(), kNone);
-    graph.corner.assign(mesh.vertices(), kNone);
-    graph.invalid_charts = graph.invalid_boundaries = graph.invalid_corners = 0;
-    Builder(mesh, labels, graph).build();
+void update_graph(const TriMesh& mesh, const Labeling& labels, const std::vector<Index>& changed, LabelingGraph& graph) {
+    Builder(mesh, labels, graph).update(changed);
 }
 
 bool valid_ring(const std::vector<int>& axes, bool allow_opposite) {
@@ -338,6 +392,9 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
         borders += g.is_border(h);
     }
     require(borders == 2 * static_cast<Index>(g.halfedges.size()), "each border in one boundary", borders);
+    require(borders == static_cast<Index>(g.borders.size()), "number of borders", borders);
+    for (std::size_t i = 0; i < g.borders.size(); i++)
+        require(g.is_border(g.borders[i]) && (i == 0 || g.borders[i - 1] < g.borders[i]), "list of borders", i);
     last = kNone;
     for (std::size_t b = 0; b < g.boundaries.size(); b++) {
         const Boundary& boundary = g.boundaries[b];
@@ -359,7 +416,7 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
         if (smallest == *begin) runs = mesh.edge(*begin) == *begin;
         require(runs, "direction of a boundary", b);
         require(boundary.on_features == on_features, "feature edges of a boundary", b);
-        require(smallest > last, "order of boundaries", b);
+        require(smallest == boundary.smallest && smallest > last, "order of boundaries", b);
         last = smallest;
         require(boundary.start == kNone
                     ? *begin == smallest && mesh.to(end[-1]) == mesh.from(*begin)

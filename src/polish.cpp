@@ -196,10 +196,8 @@ private:
         if (over() || !tried_.insert(fingerprint(patch)).second) return false;
         step.proposals++;
         proposals_tried_++;
-        if (!(judge_.score(state_, patch) < state_.score)) return false;
-        judge_.apply(state_, patch, trial_);
-        if (trial_.graph.charts.size() > state_.graph.charts.size()) return false;
-        std::swap(trial_, state_);
+        if (!(judge_.score(state_, patch) < state_.score) || judge_.added_charts() > 0) return false;
+        judge_.apply(state_, patch);
         step.kept = true;
         step.facets += static_cast<Index>(patch.size());
         step.after = state_.score;
@@ -225,7 +223,7 @@ private:
     const TriMesh& mesh_;
     const RoutineOptions& options_;
     Judge judge_;
-    State state_, trial_;
+    State state_;
     Index proposals_tried_ = 0;
     std::set<std::uint64_t> tried_;
     Marks near_, in_, turned_;

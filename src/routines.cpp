@@ -120,10 +120,7 @@ private:
             step.after = score;
         }
         step.facets = static_cast<Index>(best->size());
-        if (step.kept) {
-            judge_.apply(state_, *best, trial_);
-            std::swap(trial_, state_);
-        }
+        if (step.kept) judge_.apply(state_, *best);
         if (options_.trace) options_.trace(step);
         return step.kept;
     }
@@ -261,7 +258,8 @@ private:
         for (const Patch& patch : proposals) {
             if (stopped()) break;
             proposals_tried_++;
-            judge_.apply(before, patch, state_);
+            state_ = before;
+            judge_.apply(state_, patch);
             for (const ValidityOperator& o : kValidityOperators) for_each_invalid(o);
             if (!improves(state_.score, before.score) || (step.kept && state_.score.loss >= best.score.loss)) continue;
             step.kept = true;
@@ -284,7 +282,6 @@ private:
     bool in_sequence_ = false;
     std::set<Index> invalid_before_[3];   // by kind, in a sequence: names of what was invalid at its start
     std::set<std::tuple<std::string, Index, std::uint64_t, std::int64_t>> tried_;
-    State trial_;   // memory of once()
 };
 
 }   // namespace

@@ -32,23 +32,14 @@ State Judge::state(Labeling labels) const {
     state.labels = std::move(labels);
     for (std::size_t f = 0; f < locks_.size(); f++)
         if (locks_[f] != kNoLabel) state.labels[f] = locks_[f];
-    state.graph.allow_opposite = allow_opposite_;
-    derive(state);
+    state.graph = build_graph(mesh_, state.labels, allow_opposite_);
+    state.turning = find_turning_points(mesh_, state.graph);
+    state.score = {invalid(state.graph.invalid(), static_cast<Index>(state.graph.charts.size())),
+                   static_cast<Index>(state.turning.points.size()), 0};
     for (Index f = 0; f < mesh_.facets(); f++) state.score.loss += loss(f, state.labels[f]);
+    for (Index h = 0; h < mesh_.halfedges(); h++)
+        if (mesh_.feature[h] && h < mesh_.opposite[h] && !state.graph.is_border(h)) state.score.loss += loss_per_feature_;
     return state;
-}
-
-void Judge::apply(const State& state, const Patch& patch, State& result) const {
-    result.labels = state.labels;
-    result.graph.allow_opposite = allow_opposite_;
-    std::int64_t fidelity_loss = state.score.loss - loss_per_feature_ * lost_features(state.graph);
-    for (const Relabel& r : patch) {
-        if (!free(r.facet)) continue;
-        fidelity_loss += loss(r.facet, r.label) - loss(r.facet, result.labels[r.facet]);
-        result.labels[r.facet] = r.label;
-    }
-    derive(result);
-    result.score.loss += fidelity_loss;
 }
 
 Score Judge::score(const State& state, const Patch& patch) {
@@ -57,26 +48,25 @@ Score Judge::score(const State& state, const Patch& patch) {
         for (const Relabel& r : patch)
             if (free(r.facet)) allowed_.push_back(r);
     }
-    const Effect effect = effects_.effect(state.labels, state.graph, state.turning, locks_.empty() ? patch : allowed_);
-    Score score = {invalid(state.graph.invalid() + effect.invalid, static_cast<Index>(state.graph.charts.size()) + effect.charts),
-                   state.score.turning_points + effect.turning_points,
-                   state.score.loss + loss_per_feature_ * effect.lost_features};
+    effect_ = effects_.effect(state.labels, state.graph, state.turning, locks_.empty() ? patch : allowed_);
+    Score score = {
+        invalid(state.graph.invalid() + effect_.invalid, static_cast<Index>(state.graph.charts.size()) + effect_.charts),
+        state.score.turning_points + effect_.turning_points, state.score.loss + loss_per_feature_ * effect_.lost_features};
     for (const Relabel& r : effects_.changes()) score.loss += loss(r.facet, r.label) - loss(r.facet, state.labels[r.facet]);
     return score;
 }
 
-// All but the loss of fidelity.
-void Judge::derive(State& state) const {
-    build_graph(mesh_, state.labels, state.graph);
-    state.turning = find_turning_points(mesh_, state.graph);
-    state.score = {invalid(state.graph.invalid(), static_cast<Index>(state.graph.charts.size())),
-                   static_cast<Index>(state.turning.points.size()), loss_per_feature_ * lost_features(state.graph)};
-}
-
-std::int64_t Judge::lost_features(const LabelingGraph& graph) const {
-    std::int64_t lost = 0;
-    for (Index h = 0; h < mesh_.halfedges(); h++) lost += mesh_.feature[h] && h < mesh_.opposite[h] && !graph.is_border(h);
-    return lost;
+void Judge::apply(State& state, const Patch& patch) {
+    state.score = score(state, patch);
+    std::vector<Index> changed;
+    for (const Relabel& r : effects_.changes()) {
+        state.labels[r.facet] = r.label;
+        changed.push_back(r.facet);
+    }
+    const std::vector<Boundary> boundaries = state.graph.boundaries;
+    const std::vector<Index> halfedges = state.graph.halfedges;
+    update_graph(mesh_, state.labels, changed, state.graph);
+    state.turning = find_turning_points(mesh_, state.graph, boundaries, halfedges, state.turning);
 }
 
 }   // namespace polylab

@@ -230,11 +230,30 @@ Range TurningPoints::of(Index boundary) const {
 }
 
 TurningPoints find_turning_points(const TriMesh& mesh, const LabelingGraph& graph) {
+    return find_turning_points(mesh, graph, {}, {}, {});
+}
+
+TurningPoints find_turning_points(const TriMesh& mesh, const LabelingGraph& graph, const std::vector<Boundary>& old_boundaries,
+                                  const std::vector<Index>& old_halfedges, const TurningPoints& old) {
     TurningPoints result;
+    auto before = old_boundaries.begin();   // both lists are sorted by the smallest half-edges
     for (Index b = 0; b < static_cast<Index>(graph.boundaries.size()); b++) {
-        if (!can_turn(graph.boundaries[b])) continue;
-        const Chain chain = make_chain(mesh, boundary_halfedges(graph, b), graph.boundaries[b].axis);
-        add_points(result, chain_turns(chain, graph.boundaries[b].closed()), b, chain);
+        const Boundary& boundary = graph.boundaries[b];
+        if (!can_turn(boundary)) continue;
+        while (before != old_boundaries.end() && before->smallest < boundary.smallest) ++before;
+        const auto begin = graph.halfedges.begin() + boundary.halfedges.first,
+                   end = graph.halfedges.begin() + boundary.halfedges.last;
+        if (before != old_boundaries.end() && before->axis == boundary.axis &&
+            std::equal(begin, end, old_halfedges.begin() + before->halfedges.first,
+                       old_halfedges.begin() + before->halfedges.last)) {
+            const Range points = old.of(static_cast<Index>(before - old_boundaries.begin()));
+            for (Index i = points.first; i < points.last; i++)
+                result.points.push_back({b, old.points[i].position, old.points[i].vertex});
+            result.non_monotone_boundaries += points.size() > 0;
+            continue;
+        }
+        const Chain chain = make_chain(mesh, boundary_halfedges(graph, b), boundary.axis);
+        add_points(result, chain_turns(chain, boundary.closed()), b, chain);
     }
     count_vertices(result);
     return result;

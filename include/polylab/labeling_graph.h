@@ -38,6 +38,7 @@ struct Chart {
 };
 
 struct Boundary {
+    Index smallest = kNone;              // half-edge, on either side
     Range halfedges;                     // in LabelingGraph::halfedges, in order
     Index left = kNone, right = kNone;   // charts
     Index start = kNone, end = kNone;    // corners
@@ -74,6 +75,7 @@ struct LabelingGraph {
     std::vector<Index> chart;              // facet -> chart
     std::vector<Index> boundary;           // half-edge -> boundary; kNone inside charts
     std::vector<Index> corner;             // vertex -> corner or kNone
+    std::vector<Index> borders;            // half-edges, increasing, whose facets have different labels: both of each edge
     std::vector<Index> halfedges;          // of all boundaries
     std::vector<Index> chart_boundaries;   // of all charts
     std::vector<Index> ring_halfedges;     // of all rings
@@ -92,10 +94,12 @@ struct LabelingGraph {
     Index next_border_cw(const TriMesh& mesh, Index h) const;
 };
 
-// The graph of a labeling. One pass over the facets, then work along the boundaries only. O(n)
-// The second form reuses the memory of `graph`, whatever it held; graph.allow_opposite is kept.
+// The graph of a labeling. One pass over the half-edges and facets, then work along the boundaries only. O(n)
 LabelingGraph build_graph(const TriMesh& mesh, const Labeling& labels, bool allow_opposite = true);
-void build_graph(const TriMesh& mesh, const Labeling& labels, LabelingGraph& graph);
+
+// Makes the graph of labels that differ on the `changed` facets only (each listed once) that of `labels`: the same that
+// build_graph() gives. O(facets of charts that change + length of all boundaries), and one look at each facet's chart.
+void update_graph(const TriMesh& mesh, const Labeling& labels, const std::vector<Index>& changed, LabelingGraph& graph);
 
 inline constexpr Index kLeastBoundaries = 4;   // of a valid chart
 

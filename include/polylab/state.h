@@ -45,15 +45,15 @@ public:
 
     const TriMesh& mesh() const { return mesh_; }
     State state(Labeling labels) const;
-    // The score of `state` with the patch applied: what apply() would give, at the price of what the patch changes.
+    // The score that `state` would have with the patch applied, at the price of what the patch changes.
     Score score(const State& state, const Patch& patch);
-    // `state` with the patch applied, written into `result` (whose memory is reused). O(n)
-    void apply(const State& state, const Patch& patch, State& result) const;
+    // How many charts the patch scored last would add.
+    Index added_charts() const { return effect_.charts; }
+    // Makes `state` that of its labels with the patch applied. At the price of update_graph()
+    void apply(State& state, const Patch& patch);
 
 private:
-    void derive(State& state) const;
     std::int64_t loss(Index f, Label l) const;   // kLossUnit (1 - fidelity)
-    std::int64_t lost_features(const LabelingGraph& graph) const;
     Index invalid(Index elements, Index charts) const;
     bool free(Index f) const { return locks_.empty() || locks_[f] == kNoLabel; }
 
@@ -62,6 +62,7 @@ private:
     Labeling locks_;
     std::int64_t loss_per_feature_ = 0;   // that is lost
     EffectFinder effects_;
+    Effect effect_;   // of the patch scored last
     Patch allowed_;   // memory of score(): the patch without locked facets
 };
 

@@ -61,6 +61,10 @@ struct TurningPoints {
 // Boundaries of one edge and boundaries between opposite labels have none. O(length of all boundaries)
 TurningPoints find_turning_points(const TriMesh& mesh, const LabelingGraph& graph);
 
+// The same, where the points of an earlier graph are known: the boundaries that have not changed since keep theirs.
+TurningPoints find_turning_points(const TriMesh& mesh, const LabelingGraph& graph, const std::vector<Boundary>& old_boundaries,
+                                  const std::vector<Index>& old_halfedges, const TurningPoints& old);
+
 // As the published code counts them: each boundary traversed in the direction in which that code discovers it. It goes over
 // all half-edges h by number. Where from(h) is a corner with a ring in the fan of h, and h is not a border of a ring recorded
 // there, the borders of that ring are pushed on a stack, counter-clockwise, beginning with the first border after h (h itself
