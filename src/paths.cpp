@@ -238,28 +238,6 @@ std::vector<Halfedges> runs_of(const State& state, const Halfedges& contour) {
     return runs;
 }
 
-PottsEnergy local_energy(const TriMesh& mesh, const State& state, const std::vector<Index>& facets,
-                         const std::function<Index(Index f, Label l)>& data, const std::function<Index(Index h)>& weight) {
-    PottsEnergy energy;
-    for (const Index f : facets) {
-        std::array<Index, kLabels> cost;
-        for (Label l = 0; l < kLabels; l++) cost[l] = data(f, l);
-        for (Index h = 3 * f; h < 3 * f + 3; h++) {
-            const Index g = mesh.right(h), w = weight(h);
-            const auto other = std::lower_bound(facets.begin(), facets.end(), g);
-            if (other == facets.end() || *other != g) {
-                for (Label l = 0; l < kLabels; l++) cost[l] += l == state.labels[g] ? 0 : w;
-            } else if (f < g) {
-                energy.ends.insert(energy.ends.end(),
-                                   {static_cast<Index>(energy.data.size()), static_cast<Index>(other - facets.begin())});
-                energy.weight.push_back(w);
-            }
-        }
-        energy.data.push_back(cost);
-    }
-    return energy;
-}
-
 Vec3 mean_normal(const TriMesh& mesh, const std::vector<Index>& facets) {
     Vec3 sum;
     for (const Index f : facets) sum += mesh.normal[f];

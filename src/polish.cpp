@@ -48,21 +48,26 @@ Proposals with_parts(const TriMesh& mesh, Patch patch) {
 
 }   // namespace
 
-Proposals redraw(const TriMesh& mesh, const State& state, std::vector<Index> facets, int compactness) {
-    std::sort(facets.begin(), facets.end());
-    facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+Proposals Redraw::operator()(const State& state, const std::vector<Index>& facets, int compactness) {
     bool occurs[kLabels] = {};
     Labeling labels;
     for (const Index f : facets) {
         labels.push_back(state.labels[f]);
         occurs[state.labels[f]] = true;
-        for (Index h = 3 * f; h < 3 * f + 3; h++) occurs[state.labels[mesh.right(h)]] = true;
+        for (Index h = 3 * f; h < 3 * f + 3; h++) occurs[state.labels[mesh_.right(h)]] = true;
     }
+    std::vector<std::int16_t>& pairwise = pairwise_[compactness];
+    pairwise.resize(mesh_.halfedges(), kNone);
     const PottsEnergy energy = local_energy(
-        mesh, state, facets,
-        [&](Index f, Label l) { return static_cast<Index>(kDataScale * (1 - along(mesh.normal[f], l)) + 0.5); },
+        mesh_, state.labels, facets,
+        [&](Index f, Label l) { return static_cast<Index>(kDataScale * (1 - along(mesh_.normal[f], l)) + 0.5); },
         [&](Index h) {
-            return mesh.feature[h] ? 0 : pairwise_cost(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)], compactness);
+            std::int16_t& cost = pairwise[mesh_.edge(h)];
+            if (cost == kNone) {
+                const Vec3 &n = mesh_.normal[mesh_.left(h)], &m = mesh_.normal[mesh_.right(h)];
+                cost = static_cast<std::int16_t>(mesh_.feature[h] ? 0 : pairwise_cost(n, m, compactness));
+            }
+            return static_cast<Index>(cost);
         });
     Expansion expansion(energy);
     for (Label l = 0; l < kLabels; l++)
@@ -70,7 +75,7 @@ Proposals redraw(const TriMesh& mesh, const State& state, std::vector<Index> fac
     Patch patch;
     for (std::size_t i = 0; i < facets.size(); i++)
         if (labels[i] != state.labels[facets[i]]) patch.push_back({facets[i], labels[i]});
-    return patch.empty() ? Proposals{} : with_parts(mesh, std::move(patch));
+    return patch.empty() ? Proposals{} : with_parts(mesh_, std::move(patch));
 }
 
 namespace {
@@ -78,7 +83,8 @@ namespace {
 class Polish {
 public:
     Polish(const TriMesh& mesh, State state, const RoutineOptions& options)
-        : mesh_(mesh), options_(options), judge_(mesh, options.allow_opposite, options.locks), state_(std::move(state)) {}
+        : mesh_(mesh), options_(options), judge_(mesh, options.allow_opposite, options.locks), redraw_(mesh),
+          state_(std::move(state)) {}
 
     // In rounds: what one round has changed is where the next one looks.
     State run(Labeling before) {
@@ -147,9 +153,10 @@ private:
         beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
         Step step{"redraw-boundary", b, false, false, 0, 0, state_.score, state_.score};
         for (const int width : kBandWidths) {
-            const std::vector<Index> facets = widened(beside, width);
+            std::vector<Index> facets = widened(beside, width);
+            std::sort(facets.begin(), facets.end());   // all different
             for (const int compactness : kBandCompactness) {
-                const Proposals proposals = redraw(mesh_, state_, facets, compactness);
+                const Proposals proposals = redraw_(state_, facets, compactness);
                 for (std::size_t i = 0; i < proposals.size(); i++)
                     if (attempt(proposals[i], step) && i == 0) break;   // the whole, so no parts
             }
@@ -223,6 +230,7 @@ private:
     const TriMesh& mesh_;
     const RoutineOptions& options_;
     Judge judge_;
+    Redraw redraw_;
     State state_;
     Index proposals_tried_ = 0;
     std::set<std::uint64_t> tried_;

@@ -41,16 +41,16 @@ TEST_CASE("polish: redraw gives a facet back to the chart that it belongs to, an
     labels[3] = 4;
     labels[20] = 4;
     const State state = Judge(mesh).state(labels);
-    const Proposals all = redraw(mesh, state, {20, 3, 2, 3}, 1);
+    const Proposals all = Redraw(mesh)(state, {2, 3, 20}, 1);
     REQUIRE(all.size() == 3);   // the whole, and its two parts
     CHECK(all[0].size() == 2);
     CHECK(all[1][0].facet == 3);
     CHECK(all[2][0].facet == 20);
     for (const Relabel& r : all[0]) CHECK(r.label == naive[r.facet]);
-    const Proposals one = redraw(mesh, state, {3}, 1);
+    const Proposals one = Redraw(mesh)(state, {3}, 1);
     REQUIRE(one.size() == 1);
     CHECK(one[0].size() == 1);
-    CHECK(redraw(mesh, Judge(mesh).state(naive), {1, 2, 3}, 1).empty());
+    CHECK(Redraw(mesh)(Judge(mesh).state(naive), {1, 2, 3}, 1).empty());
 }
 
 TEST_CASE("polish: a border that left its edge comes back") {

@@ -35,7 +35,7 @@ private:
 };
 
 // A set of few indices, in memory of its own size: for what a single search meets. A table with open addressing; nothing
-// iterates over it, so that its order is nobody's concern.
+// iterates over it, so that its order is nobody's concern. Each index has a number: how many were inserted before it.
 class IndexSet {
 public:
     IndexSet() = default;
@@ -44,34 +44,43 @@ public:
         for (const Index i : indices) insert(i);
     }
 
-    bool has(Index i) const { return !table_.empty() && table_[place(i)] == i; }
+    bool has(Index i) const { return number(i) != kNone; }
+    // kNone if i is not in the set.
+    Index number(Index i) const {
+        if (table_.empty()) return kNone;
+        const Entry& entry = table_[place(i)];
+        return entry.index == i ? entry.number : kNone;
+    }
     // Whether i was not in the set. i is not negative.
     bool insert(Index i) {
-        if (2 * (count_ + 1) > table_.size()) grow();
-        Index& entry = table_[place(i)];
-        if (entry == i) return false;
-        entry = i;
-        count_++;
+        if (2 * (static_cast<std::size_t>(count_) + 1) > table_.size()) grow();
+        Entry& entry = table_[place(i)];
+        if (entry.index == i) return false;
+        entry = {i, count_++};
         return true;
     }
 
 private:
+    struct Entry {
+        Index index = kNone, number = kNone;
+    };
+
     // Where i is, or where it would go.
     std::size_t place(Index i) const {
         const std::size_t mask = table_.size() - 1;
         std::size_t at = (static_cast<std::uint32_t>(i) * 2654435769u >> 7) & mask;
-        while (table_[at] != kNone && table_[at] != i) at = (at + 1) & mask;
+        while (table_[at].index != kNone && table_[at].index != i) at = (at + 1) & mask;
         return at;
     }
     void grow() {
-        const std::vector<Index> old = std::move(table_);
-        table_.assign(old.empty() ? 64 : 2 * old.size(), kNone);
-        for (const Index i : old)
-            if (i != kNone) table_[place(i)] = i;
+        const std::vector<Entry> old = std::move(table_);
+        table_.assign(old.empty() ? 64 : 2 * old.size(), {});
+        for (const Entry& entry : old)
+            if (entry.index != kNone) table_[place(entry.index)] = entry;
     }
 
-    std::vector<Index> table_;   // a power of two, at most half full
-    std::size_t count_ = 0;
+    std::vector<Entry> table_;   // a power of two, at most half full
+    Index count_ = 0;
 };
 
 }   // namespace polylab

@@ -6,7 +6,7 @@
 #include "polylab/alpha_expansion.h"
 #include "polylab/state.h"
 
-#include <functional>
+#include <array>
 #include <vector>
 
 namespace polylab {
@@ -59,10 +59,30 @@ std::vector<Halfedges> contours(const TriMesh& mesh, const State& state, Index c
 // A contour cut into the boundaries it consists of, in order.
 std::vector<Halfedges> runs_of(const State& state, const Halfedges& contour);
 
-// The energy of labels for some facets (increasing; site i is facets[i]) while all others keep theirs: data(f, l) per facet,
-// weight(h) per edge between different labels. An edge to a fixed facet costs its one site. O(n log n) in the facets
-PottsEnergy local_energy(const TriMesh& mesh, const State& state, const std::vector<Index>& facets,
-                         const std::function<Index(Index f, Label l)>& data, const std::function<Index(Index h)>& weight);
+// The energy of labels for some facets, all different (site i is facets[i]), while all others keep theirs: data(f, l) per
+// facet, weight(h) per edge between different labels. An edge to a fixed facet costs its one site. O(n) in the facets
+template <class Data, class Weight>
+PottsEnergy local_energy(const TriMesh& mesh, const Labeling& labels, const std::vector<Index>& facets, const Data& data,
+                         const Weight& weight) {
+    PottsEnergy energy;
+    const IndexSet sites(facets);
+    for (const Index f : facets) {
+        std::array<Index, kLabels> cost;
+        for (Label l = 0; l < kLabels; l++) cost[l] = data(f, l);
+        for (Index h = 3 * f; h < 3 * f + 3; h++) {
+            const Index g = mesh.right(h), site = sites.number(g);
+            if (site == kNone) {
+                const Index w = weight(h);
+                for (Label l = 0; l < kLabels; l++) cost[l] += l == labels[g] ? 0 : w;
+            } else if (site > static_cast<Index>(energy.data.size())) {
+                energy.ends.insert(energy.ends.end(), {static_cast<Index>(energy.data.size()), site});
+                energy.weight.push_back(weight(h));
+            }
+        }
+        energy.data.push_back(cost);
+    }
+    return energy;
+}
 
 // Sum of the facets' unit normals.
 Vec3 mean_normal(const TriMesh& mesh, const std::vector<Index>& facets);

@@ -6,15 +6,25 @@
 
 #include "polylab/routines.h"
 
+#include <map>
 #include <vector>
 
 namespace polylab {
 
-// The given facets, all others being fixed, take the labels that occur on and next to them, by a graph-cut. Its data cost is
-// the loss of fidelity, linear in the normal, so that it also tells labels apart that all point away from a facet; the cost of
-// Section 5 doesn't. Borders on kept feature edges cost nothing. The first proposal is the whole change; if it falls into
-// several edge-connected parts, these follow. O(n log n) in the facets given, but for the max-flow
-Proposals redraw(const TriMesh& mesh, const State& state, std::vector<Index> facets, int compactness);
+class Redraw {
+public:
+    explicit Redraw(const TriMesh& mesh) : mesh_(mesh) {}
+
+    // The given facets (increasing), all others being fixed, take the labels that occur on and next to them, by a graph-cut. Its
+    // data cost is the loss of fidelity, linear in the normal, so that it also tells labels apart that all point away from a
+    // facet; the cost of Section 5 doesn't. Borders on kept feature edges cost nothing. The first proposal is the whole change;
+    // if it falls into several edge-connected parts, these follow. O(n) in the facets given, but for the max-flow
+    Proposals operator()(const State& state, const std::vector<Index>& facets, int compactness);
+
+private:
+    const TriMesh& mesh_;
+    std::map<int, std::vector<std::int16_t>> pairwise_;   // compactness -> half-edge -> cost, kNone where not asked for yet
+};
 
 // `state` with the borders near the facets that differ from `start` redrawn, and facets turned that point away from their
 // label, as long as that improves the score and makes no new chart. Bounded as run_routines() is. Never worse than `state`.
