@@ -342,10 +342,11 @@ TEST_CASE("labeling graph: random labelings are as the definitions say, also in 
     };
     const Kind kinds[] = {{6, 1, 0}, {6, 1, 4}, {6, 1, 30}, {2, 1, 4}, {2, 2, 4}, {3, 2, 10}, {3, 1, 10}, {4, 1, 2}};
     Lcg random(1);
-    LabelingGraph used;
     int labelings = 0, opposite = 0, many_fans = 0;
     for (const MeshData& shape : all_shapes()) {
         const TriMesh mesh = build_mesh(shape);
+        Labeling last(mesh.facets(), kX);
+        LabelingGraph updated = build_graph(mesh, last);
         for (const Kind& kind : kinds) {
             for (int again = 0; again < 4; again++) {
                 const Labeling labels = patchy(mesh, kind.colours, kind.stride, kind.rounds * mesh.facets(), random);
@@ -355,14 +356,18 @@ TEST_CASE("labeling graph: random labelings are as the definitions say, also in 
                 const LabelingGraph graph = build_graph(mesh, labels, allow_opposite);
                 CHECK_NOTHROW(validate(mesh, labels, graph));
                 CHECK(graph_text(graph) == reference_text(mesh, labels, allow_opposite));
-                used.allow_opposite = allow_opposite;
-                build_graph(mesh, labels, used);
-                CHECK(graph_text(used) == graph_text(graph));
-                CHECK(used.chart == graph.chart);
-                CHECK(used.boundary == graph.boundary);
-                CHECK(used.corner == graph.corner);
-                CHECK(used.invalid() == graph.invalid());
-                CHECK(used.allow_opposite == allow_opposite);
+                std::vector<Index> changed;
+                for (Index f = 0; f < mesh.facets(); f++)
+                    if (labels[f] != last[f]) changed.push_back(f);
+                last = labels;
+                updated.allow_opposite = allow_opposite;
+                update_graph(mesh, labels, changed, updated);
+                CHECK(graph_text(updated) == graph_text(graph));
+                CHECK(updated.chart == graph.chart);
+                CHECK(updated.boundary == graph.boundary);
+                CHECK(updated.corner == graph.corner);
+                CHECK(updated.borders == graph.borders);
+                CHECK(updated.invalid() == graph.invalid());
                 for (const Boundary& b : graph.boundaries) opposite += b.axis == kNone;
                 Index marked = 0;
                 for (const Index c : graph.corner) marked += c != kNone;

@@ -40,8 +40,8 @@ struct Scene {
     explicit Scene(const Shape& shape) : Scene(shape.data, shape.labels) {}
 
     State after(const Patch& patch) const {
-        State result;
-        Judge(mesh).apply(state, patch, result);
+        State result = state;
+        Judge(mesh).apply(result, patch);
         validate(mesh, result.labels, result.graph);
         return result;
     }

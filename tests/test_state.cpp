@@ -174,22 +174,19 @@ TEST_CASE("state: scores compare validity, then turning-points, then loss") {
 
 TEST_CASE("state: a patch gives the state of the patched labeling") {
     Lcg random(23);
-    State result;   // one for all: its memory is reused, whatever it held
     for (const MeshData& data :
          {cube(2), shapes::creased(shapes::stair(3)), shapes::two_cubes_at_a_vertex(), shapes::refined(shapes::octahedron())}) {
         const TriMesh mesh = build_mesh(data);
         for (const bool allow_opposite : {true, false}) {
-            const Judge judge(mesh, allow_opposite);
+            Judge judge(mesh, allow_opposite);
             State state = judge.state(naive_labeling(mesh));
             for (int i = 0; i < 12; i++) {
-                const State before = state;
                 const Patch patch = random_patch(mesh.facets(), random);
-                judge.apply(state, patch, result);
-                check_equal(state, before);
-                check_equal(result, judge.state(with(state.labels, patch)));
-                validate(mesh, result.labels, result.graph);
-                CHECK(result.graph.allow_opposite == allow_opposite);
-                std::swap(state, result);
+                const State expected = judge.state(with(state.labels, patch));
+                judge.apply(state, patch);
+                check_equal(state, expected);
+                validate(mesh, state.labels, state.graph);
+                CHECK(state.graph.allow_opposite == allow_opposite);
             }
         }
     }
@@ -197,12 +194,12 @@ TEST_CASE("state: a patch gives the state of the patched labeling") {
 
 TEST_CASE("state: an empty patch changes nothing, and of two labels for a facet the last counts") {
     const TriMesh mesh = build_mesh(cube(2));
-    const Judge judge(mesh);
+    Judge judge(mesh);
     const State state = judge.state(naive_labeling(mesh));
-    State result;
-    judge.apply(state, {}, result);
+    State result = state;
+    judge.apply(result, {});
     check_equal(result, state);
-    judge.apply(state, {{3, kY}, {3, kZ}}, result);
+    judge.apply(result, {{3, kY}, {3, kZ}});
     CHECK(result.labels[3] == kZ);
 }
 
@@ -212,17 +209,18 @@ TEST_CASE("state: locked facets keep their labels whatever a patch says") {
     Labeling locks(mesh.facets(), kNoLabel);
     locks[0] = labels[0];
     locks[40] = labels[40];
-    const Judge locked(mesh, true, locks), free(mesh);
-    State result;
-    locked.apply(free.state(labels), relabel_all(mesh, kY), result);
+    Judge locked(mesh, true, locks);
+    const Judge free(mesh);
+    State result = free.state(labels);
+    locked.apply(result, relabel_all(mesh, kY));
     for (Index f = 0; f < mesh.facets(); f++) CHECK(result.labels[f] == (locks[f] == kNoLabel ? kY : labels[f]));
     check_equal(result, free.state(result.labels));   // locks cost nothing
 }
 
 TEST_CASE("state: a list of locks without any lock leaves all free") {
     const TriMesh mesh = build_mesh(cube(1));
-    const Judge judge(mesh, true, Labeling(12, kNoLabel));
-    State result;
-    judge.apply(judge.state(naive_labeling(mesh)), relabel_all(mesh, kX), result);
+    Judge judge(mesh, true, Labeling(12, kNoLabel));
+    State result = judge.state(naive_labeling(mesh));
+    judge.apply(result, relabel_all(mesh, kX));
     CHECK(result.labels == Labeling(12, kX));
 }
