@@ -226,6 +226,12 @@ Labeling run_full(const TriMesh& mesh, const Labeling& start, Labeling locks, in
     return search(mesh, start, options, effort).labels;
 }
 
+std::vector<Output> outputs_of(const std::vector<ExportedFile>& files) {
+    std::vector<Output> outputs(files.size());
+    for (std::size_t i = 0; i < files.size(); i++) outputs[i] = {files[i].path, files[i].content};
+    return outputs;
+}
+
 int run_label(const Arguments& arguments) {
     const Console console(arguments);
     const Stopwatch watch;
@@ -272,9 +278,10 @@ int run_label(const Arguments& arguments) {
         if (arguments.has("--report")) layers.push_back({"final", labels});
     }
     const Judged result = judge(mesh, labels);
-    const std::string exported = export_text(output, mesh, labels), text = exported.empty() ? labels_text(labels) : exported;
+    std::vector<ExportedFile> files = export_files(output, mesh, labels);
+    if (files.empty()) files = {{output, labels_text(labels)}};
     std::string json;
-    std::vector<Output> outputs = {{output, text}};
+    std::vector<Output> outputs = outputs_of(files);
     if (arguments.has("--stats")) {
         json = statistics_json(result.statistics, explain(mesh, result.graph), rotation);
         outputs.push_back({arguments.get("--stats"), json});
@@ -343,26 +350,15 @@ int run_surface(const Arguments& arguments) {
     const Console console(arguments);
     const std::string& path = arguments.operands[0];
     if (!arguments.has("-o")) throw UsageError("missing -o FILE.obj or FILE.mesh");
-    const MeshData tets = read_mesh(path);
-    TetSurface extracted;
-    TriMesh mesh;
-    MeshData written;
-    try {
-        extracted = extract_surface(tets);
-        written.edges = extracted.surface.edges;
-        mesh = build_mesh(std::move(extracted.surface));
-    } catch (const InputError& error) {
-        throw error.in(path);
-    }
-    for (const std::string& note : notes(mesh)) console.warn(path + ": " + note);
-    written.points = mesh.points;
-    written.triangles = mesh.origin;
-    const std::string surface = mesh_text(arguments.get("-o"), written), map = surface_map_text(extracted.map);
+    std::vector<std::string> said;
+    const TetSurface extracted = outward_surface(read_mesh(path), path, said);
+    for (const std::string& note : said) console.warn(path + ": " + note);
+    const std::string surface = mesh_text(arguments.get("-o"), extracted.surface), map = surface_map_text(extracted.map);
     std::vector<Output> outputs = {{arguments.get("-o"), surface}};
     if (arguments.has("--map")) outputs.push_back({arguments.get("--map"), map});
     write_files(outputs);
-    console.say(path + ": " + std::to_string(extracted.map.tets) + " tetrahedra, " + std::to_string(mesh.facets()) +
-                " triangles on the surface");
+    console.say(path + ": " + std::to_string(extracted.map.tets) + " tetrahedra, " +
+                std::to_string(extracted.map.tet_facet.size()) + " triangles on the surface");
     return kDone;
 }
 
@@ -394,9 +390,9 @@ int run_export(const Arguments& arguments) {
     const Console console(arguments);
     const std::string output = arguments.get("-o");
     const TriMesh mesh = read_part(arguments, console);
-    const std::string text = export_text(output, mesh, read_labels(arguments.operands[1], mesh.facets()));
-    if (text.empty()) throw UsageError("expected -o FILE in .vtk, .glb, .mesh or .obj");
-    write_file(output, text);
+    const std::vector<ExportedFile> files = export_files(output, mesh, read_labels(arguments.operands[1], mesh.facets()));
+    if (files.empty()) throw UsageError("expected -o FILE in .vtk, .glb, .mesh or .obj");
+    write_files(outputs_of(files));
     return kDone;
 }
 

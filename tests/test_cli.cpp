@@ -364,6 +364,17 @@ TEST_CASE("cli: a report and a picture are written with the rest, or not at all"
     check_refused(scratch, "label cube.obj -o n.txt --report none/r.html", "none/r.html");
 }
 
+TEST_CASE("cli: the two files of a coloured surface are written together, or not at all") {
+    const Scratch scratch;
+    check_done(scratch, "export cube.obj naive.txt -o out.obj");
+    CHECK(scratch.read("out.obj").find("mtllib out.mtl\n") == 0);
+    CHECK(scratch.read("out.mtl").find("newmtl red\n") == 0);
+    check_done(scratch, "label cube.obj -o labeled.obj");
+    CHECK(scratch.read("labeled.mtl") == scratch.read("out.mtl"));
+    fs::create_directory(scratch.path("b.mtl"));
+    check_refused(scratch, "export cube.obj naive.txt -o b.obj", "b.mtl: can't be written");
+}
+
 TEST_CASE("cli: diff") {
     const Scratch scratch;
     scratch.write("b.txt", "0 0 1 1 2 2 3 3 4 4 5 0");

@@ -37,17 +37,29 @@ std::string refusal(const std::string& text) {
 
 const std::string kVtkHead = "# vtk DataFile Version 2.0\na title # of any kind\nASCII\nDATASET UNSTRUCTURED_GRID\n";
 
+// The first file.
+std::string exported(const std::string& path, const TriMesh& mesh, const Labeling& labels) {
+    return export_files(path, mesh, labels).at(0).content;
+}
+
+float number(const std::string& bytes, std::size_t at) {
+    const std::uint32_t bits = word(bytes, at);
+    float x;
+    std::memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
 }   // namespace
 
 TEST_CASE("exports: the extension decides, others are for labels") {
     const TriMesh mesh = build_mesh(shapes::cube(1));
-    for (const char* name : {"a.txt", "a", "-", "", "vtk", "a.obj.txt"}) CHECK(export_text(name, mesh, kCube).empty());
-    CHECK(export_text("A.VTK", mesh, kCube) == export_text("a.vtk", mesh, kCube));
+    for (const char* name : {"a.txt", "a", "-", "", "vtk", "a.obj.txt"}) CHECK(export_files(name, mesh, kCube).empty());
+    CHECK(exported("A.VTK", mesh, kCube) == exported("a.vtk", mesh, kCube));
 }
 
 TEST_CASE("exports: .vtk holds the surface and four values per facet") {
     const TriMesh mesh = build_mesh(shapes::cube(1));
-    const std::string text = export_text("a.vtk", mesh, kCube);
+    const std::string text = exported("a.vtk", mesh, kCube);
     const MeshData back = read_vtk(text, "a.vtk");
     CHECK(back.points == mesh.points);
     CHECK(back.triangles == mesh.origin);
@@ -64,7 +76,7 @@ TEST_CASE("exports: .vtk holds the surface and four values per facet") {
 TEST_CASE("exports: .mesh and .obj hold surface, feature edges and labels") {
     const MeshData shape = shapes::creased(shapes::cube(1));
     const TriMesh mesh = build_mesh(shape);
-    const std::string medit = export_text("a.mesh", mesh, kCube), obj = export_text("a.obj", mesh, kCube);
+    const std::string medit = exported("a.mesh", mesh, kCube), obj = exported("a.obj", mesh, kCube);
     for (const MeshData& back : {read_medit(medit, "a.mesh"), read_obj(obj, "a.obj")}) {
         CHECK(back.points == mesh.points);
         CHECK(back.triangles == mesh.origin);
@@ -79,11 +91,43 @@ TEST_CASE("exports: .mesh and .obj hold surface, feature edges and labels") {
         CHECK(occurrences(obj, std::string("usemtl ") + material + "\nf ") == 2);
 }
 
+TEST_CASE("exports: .obj refers to the .mtl beside it, which has its materials") {
+    const TriMesh mesh = build_mesh(shapes::cube(1));
+    const std::vector<ExportedFile> files = export_files("some folder/a.b.OBJ", mesh, kCube);
+    REQUIRE(files.size() == 2);
+    CHECK(files[0].path == "some folder/a.b.OBJ");
+    CHECK(files[0].content.find("mtllib a.b.mtl\nv ") == 0);
+    CHECK(files[1].path == "some folder/a.b.mtl");
+    CHECK(files[1].content ==
+          "newmtl red\nKd 1 0 0\nnewmtl darkred\nKd 0.6 0 0\nnewmtl green\nKd 0 1 0\nnewmtl darkgreen\nKd 0 0.6 0\n"
+          "newmtl blue\nKd 0 0 1\nnewmtl darkblue\nKd 0 0 0.6\n");
+}
+
+TEST_CASE("exports: .glb of a surface without labels, and with its way to the polycube") {
+    const TriMesh mesh = build_mesh(shapes::cube(1));
+    const std::string plain = glb_text(mesh, {});
+    CHECK(occurrences(plain, "\"baseColorFactor\"") == 1);
+    CHECK(occurrences(plain, "\"count\": 36,") == 1);
+    CHECK(plain.find("animations") == std::string::npos);
+    std::vector<Vec3> polycube = mesh.points;
+    for (Vec3& p : polycube) p = p + p + Vec3{0, 0, 1};
+    const std::string glb = glb_text(mesh, kCube, polycube);
+    CHECK(occurrences(glb, "\"targets\"") == 6);
+    CHECK(occurrences(glb, "\"path\": \"weights\"") == 1);
+    const std::size_t bin = 20 + word(glb, 12) + 8;
+    for (Index v = 0; v < 8; v++)   // where each vertex goes, after where they are
+        for (int a = 0; a < 3; a++)
+            CHECK(number(glb, bin + 96 + 4 * static_cast<std::size_t>(3 * v + a)) == polycube[v][a] - mesh.points[v][a]);
+    const float expected[] = {0, 1, 4, 5, 8, 0, 0, 1, 1, 0};   // seconds, then weights
+    for (std::size_t i = 0; i < 10; i++) CHECK(number(glb, bin + 192 + 4 * i) == expected[i]);
+    CHECK(glb.size() == bin + 192 + 40 + 36 * 4);
+}
+
 TEST_CASE("exports: .glb") {
     const TriMesh mesh = build_mesh(shapes::moved(shapes::cube(1), {-0.5, 0, 2}));
     Labeling labels = kCube;
     labels[1] = 2;   // one facet of +X, three of +Y
-    const std::string glb = export_text("a.glb", mesh, labels);
+    const std::string glb = exported("a.glb", mesh, labels);
     REQUIRE(glb.size() > 20);
     CHECK(glb.substr(0, 4) == "glTF");
     CHECK(word(glb, 4) == 2);
@@ -96,12 +140,7 @@ TEST_CASE("exports: .glb") {
     CHECK(word(glb, bin) == 8 * 12 + 36 * 4);
     CHECK(glb.substr(bin + 4, 4) == std::string("BIN\0", 4));
     for (Index v = 0; v < 8; v++)
-        for (int a = 0; a < 3; a++) {
-            const std::uint32_t bits = word(glb, bin + 8 + 4 * static_cast<std::size_t>(3 * v + a));
-            float x;
-            std::memcpy(&x, &bits, sizeof x);
-            CHECK(x == mesh.points[v][a]);
-        }
+        for (int a = 0; a < 3; a++) CHECK(number(glb, bin + 8 + 4 * static_cast<std::size_t>(3 * v + a)) == mesh.points[v][a]);
     std::size_t at = bin + 8 + 8 * 12;
     for (Label l = 0; l < kLabels; l++)
         for (Index f = 0; f < 12; f++)
@@ -112,9 +151,9 @@ TEST_CASE("exports: .glb") {
     CHECK(occurrences(json, "\"count\": 3,") == 1);
     CHECK(json.find("\"min\": [\n                -0.5,\n                0.0,\n                2.0\n            ]") !=
           std::string::npos);
-    const std::string one = export_text("a.glb", mesh, Labeling(12, 4));   // only labels that occur have a primitive
+    const std::string one = exported("a.glb", mesh, Labeling(12, 4));   // only labels that occur have a primitive
     CHECK(occurrences(one, "\"indices\"") == 1);
-    CHECK_THROWS_AS(export_text("a.glb", build_mesh(shapes::scaled(shapes::cube(1), 1e39)), kCube), InputError);
+    CHECK_THROWS_AS(glb_text(build_mesh(shapes::scaled(shapes::cube(1), 1e39)), kCube), InputError);
 }
 
 TEST_CASE("io: legacy .vtk with vertices, feature edges, triangles and tetrahedra") {

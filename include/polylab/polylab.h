@@ -27,6 +27,10 @@ inline constexpr const char* kVersion = "0.1.0";
 // weld(). Throws InputError.
 TriMesh read_surface(const std::string& path, const FeatureOptions& features = {}, bool welded = false);
 
+// The surface of a tet mesh, turned to face outward, and its map; what notes() says of it goes to `said`.
+// Throws InputError, said of the file `name`.
+TetSurface outward_surface(const MeshData& tets, const std::string& name, std::vector<std::string>& said);
+
 // The whole method: graph-cut, then search() with its defaults. statistics() tells what the result is worth.
 Labeling label_polycube(const TriMesh& mesh);
 
