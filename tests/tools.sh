@@ -27,7 +27,7 @@ echo 'no geometry' >"$cad/broken.step"
 check "cad2labels: a file that is not there" refused "can't be read" "$here/tools/cad2labels" "$cad/none.step"
 check "cad2labels: a file that is not CAD" refused "expected .step" "$here/tools/cad2labels" "$here/README.md"
 check "cad2labels: a size that is no number" refused "above 0, found '0.0'" "$here/tools/cad2labels" "$cad/broken.step" --size 0.0
-mkdir "$scratch/bin" && ln -s "$(command -v dirname)" "$(command -v sed)" "$scratch/bin"
+mkdir "$scratch/bin" && ln -s "$(command -v dirname)" "$(command -v readlink)" "$(command -v sed)" "$scratch/bin"
 check "cad2labels: gmsh is missing" refused "apt-get install gmsh" env PATH="$scratch/bin" /bin/sh "$here/tools/cad2labels" "$cad/broken.step"
 if command -v gmsh >/dev/null; then
     check "cad2labels: from CAD to labels" "$here/tools/cad2labels" "$cad/gear 1.geo" --size 1
