@@ -3,7 +3,7 @@
 # Library sources src/NAME.cpp in the order of their dependence; src/main.cpp is the program.
 MODULES = costs orientation mesh align text io tet_surface maxflow alpha_expansion initial_labeling labeling_graph \
           turning_points patch polycube json statistics explain diff state paths validity_operators quality_operators routines \
-          polish search polylab stages exports report picture cli
+          polish search polylab stages exports report picture cli mesh_stats dropin
 TESTS = $(wildcard tests/*.cpp)
 
 # To choose on the command line: config=release|debug|sanitize|coverage  werror=1  builddir=DIR  verbose=1  CXX=…  CXXFLAGS=…
@@ -150,11 +150,18 @@ coverage:
 	@$(MAKE) --no-print-directory config=coverage test
 	@tools/coverage.sh $(builddir)/coverage/objects/src
 
+# The commands of src/dropin.cpp are links to the program; the tools find it from where they are.
+dropins = $(shell sed -n 's/^    {"\([A-Za-z_]*\)",.*/\1/p' src/dropin.cpp)
 install: $(program)
-	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/lib" "$(DESTDIR)$(PREFIX)/include/polylab"
+	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/lib" "$(DESTDIR)$(PREFIX)/include/polylab" \
+	    "$(DESTDIR)$(PREFIX)/libexec/polylab" "$(DESTDIR)$(PREFIX)/share/polylab"
 	install -m 755 $(program) "$(DESTDIR)$(PREFIX)/bin"
 	install -m 644 $(library) "$(DESTDIR)$(PREFIX)/lib"
 	install -m 644 include/polylab/*.h "$(DESTDIR)$(PREFIX)/include/polylab"
+	for name in $(dropins); do ln -sf ../../bin/polylab "$(DESTDIR)$(PREFIX)/libexec/polylab/$$name" || exit 1; done
+	install -m 755 tools/cad2labels tools/dataset "$(DESTDIR)$(PREFIX)/share/polylab"
+	install -m 644 tools/dataset.smk tools/dataset_steps.py "$(DESTDIR)$(PREFIX)/share/polylab"
+	for name in cad2labels dataset; do ln -sf ../share/polylab/$$name "$(DESTDIR)$(PREFIX)/bin/polylab-$$name" || exit 1; done
 
 format:
 	@clang-format --dry-run -Werror $(sources)
@@ -181,7 +188,7 @@ help:
 	@echo "make static       build/polylab-static, one file that runs anywhere"
 	@echo "make amalgamated  all sources as one translation unit"
 	@echo "make coverage     which share of the lines the tests run"
-	@echo "make install      program, headers and library to PREFIX ($(PREFIX)), under DESTDIR if set"
+	@echo "make install      program, tools, headers and library to PREFIX ($(PREFIX)), under DESTDIR if set"
 	@echo "make format       checks the format (clang-format 14); format-fix repairs it"
 	@echo "make tidy         checks names and suspicious code (clang-tidy)"
 	@echo "make clean        removes $(builddir)/"

@@ -3,6 +3,7 @@
 #include "polylab/align.h"
 #include "polylab/cli.h"
 #include "polylab/diff.h"
+#include "polylab/dropin.h"
 #include "polylab/explain.h"
 #include "polylab/exports.h"
 #include "polylab/picture.h"
@@ -589,7 +590,9 @@ static void prepare_heap() {
 int main(int argc, char** argv) {
     prepare_heap();
     try {
-        return polylab::run(std::vector<std::string>(argv + 1, argv + argc));
+        const std::string called = argc > 0 ? argv[0] : "", name = called.substr(called.find_last_of('/') + 1);
+        const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+        return polylab::is_dropin(name) ? polylab::run_dropin(name, words) : polylab::run(words);
     } catch (const polylab::InputError& error) {
         std::fprintf(stderr, "%s\n", error.what());
     } catch (const std::bad_alloc&) {

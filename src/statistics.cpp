@@ -67,8 +67,10 @@ std::string summary(const Statistics& s) {
     return text;
 }
 
-void write_json(JsonWriter& json, const Statistics& s, const std::vector<double>& rotation) {
-    json.open_object();
+namespace {
+
+// The published keys that sort before "polylab".
+void write_published(JsonWriter& json, const Statistics& s) {
     json.open_object("boundaries");
     json.value("invalid", s.invalid_boundaries);
     json.value("nb", s.boundaries);
@@ -94,6 +96,21 @@ void write_json(JsonWriter& json, const Statistics& s, const std::vector<double>
     json.value("sd", s.fidelity_sd);
     json.close_object();
     json.value("is_allowing_boundaries_between_opposite_labels", s.allow_opposite);
+}
+
+}   // namespace
+
+std::string published_json(const Statistics& s) {
+    JsonWriter json;
+    json.open_object();
+    write_published(json, s);
+    write_json_end(json, s);
+    return json.text() + "\n";
+}
+
+void write_json(JsonWriter& json, const Statistics& s, const std::vector<double>& rotation) {
+    json.open_object();
+    write_published(json, s);
     json.open_object("polylab");
     json.value("class", s.result_class() == Class::invalid          ? "invalid"
                         : s.result_class() == Class::valid_monotone ? "valid_monotone"

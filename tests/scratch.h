@@ -45,9 +45,9 @@ public:
     std::size_t entries() const { return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(at_), {})); }
 
     // `polylab ARGUMENTS`, as words of the shell, after the commands `before`; redirections that they hold win.
-    Result run(const std::string& arguments, const std::string& before = "") const {
+    Result run(const std::string& arguments, const std::string& before = "", const std::string& program = POLYLAB_PROGRAM) const {
         const std::string out = path("") + "../out." + pid(), err = path("") + "../err." + pid();
-        const std::string command = "cd '" + at_.string() + "' && { " + before + "'" POLYLAB_PROGRAM "' " + arguments +
+        const std::string command = "cd '" + at_.string() + "' && { " + before + "'" + program + "' " + arguments +
                                     "\n} </dev/null >'" + out + "' 2>'" + err + "'";
         const int status = std::system(command.c_str());
         const Result result = {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};

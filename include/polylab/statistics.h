@@ -43,6 +43,9 @@ Statistics statistics(const TriMesh& mesh, const Labeling& labels, const Labelin
 // Two lines for people: class and counts, fidelity and feature edges.
 std::string summary(const Statistics& s);
 
+// The published keys alone, as the published `labeling_stats` writes them.
+std::string published_json(const Statistics& s);
+
 // The published keys, in the published layout, and ours under "polylab". The object stays open for more keys:
 // those that sort before and after "problems" are written by the two halves. rotation: the nine entries, row by row, of the
 // matrix by which the part was turned, if it was (align.h).
