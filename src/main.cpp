@@ -190,7 +190,7 @@ std::vector<Report::Parameter> label_defaults() {
 std::string report_of(const char* command, const Arguments& arguments, const TriMesh& mesh, std::vector<Report::Layer> layers) {
     Report report;
     const std::string& part = arguments.operands[0];
-    report.title = part.substr(part.find_last_of("/\\") + 1);
+    report.title = title_of(part);
     report.parameters = {{"command", command}, {"part", part}};
     if (arguments.operands.size() > 1) report.parameters.push_back({"labels", arguments.operands[1]});
     for (const auto& [name, value] : arguments.options) report.parameters.push_back({name, value.empty() ? "yes" : value});
