@@ -2,11 +2,17 @@
 
 #include "polylab/initial_labeling.h"
 
+#include <algorithm>
+
 namespace polylab {
 
 namespace {
 
 constexpr int kStartCompactness[] = {2, 3, 4, 6, 10};   // of other starts: ever smoother
+
+// How many proposals are tried before no further start is made at effort 2. Surfaces that have no valid labeling, such as
+// those that cross themselves, take all that they are given: a small one has to end within a second.
+Index most_before_start(const TriMesh& mesh) { return std::max(20000, 20 * std::min(mesh.facets(), 100000000)); }
 
 State from_start(const TriMesh& mesh, const Labeling& start, const RoutineOptions& options, int effort) {
     State state = run_routines(mesh, start, options);
@@ -16,14 +22,20 @@ State from_start(const TriMesh& mesh, const Labeling& start, const RoutineOption
 }   // namespace
 
 State search(const TriMesh& mesh, const Labeling& start, const RoutineOptions& options, int effort) {
-    State best = from_start(mesh, start, options, effort);
-    RoutineOptions inner = options;
+    Index tried = 0;
+    RoutineOptions first = options, inner = options;
+    first.trace = [&](const Step& step) {
+        tried += step.proposals;
+        if (options.trace) options.trace(step);
+    };
     inner.trace = [&](Step step) {
+        tried += step.proposals;
         step.in_sequence = true;
         if (options.trace) options.trace(step);
     };
+    State best = from_start(mesh, start, first, effort);
     for (const int compactness : kStartCompactness) {
-        const bool done = best.score.invalid == 0 && best.score.turning_points == 0;
+        const bool done = (best.score.invalid == 0 && best.score.turning_points == 0) || tried >= most_before_start(mesh);
         if (effort < 2 || (effort == 2 && done) || (options.stop && options.stop())) break;
         InitialOptions initial;
         initial.compactness = compactness;

@@ -1,4 +1,6 @@
 // Polish and search: what is done beyond the paper's routines.
+#include "fuzz_targets.h"
+
 #include "polylab/initial_labeling.h"
 #include "polylab/polylab.h"
 #include "polylab/search.h"
@@ -128,4 +130,14 @@ TEST_CASE("search: stopped at once, it gives the start") {
     RoutineOptions options;
     options.stop = [] { return true; };
     CHECK(search(mesh, start, options).labels == start);
+}
+
+TEST_CASE("search: a small surface that has no valid labeling is given up before all starts are tried") {
+    // 50 facets that cross each other: with six starts to the end it took more than a second.
+    const TriMesh mesh = build_mesh(fuzz::soup(fuzz::choices_of_seed(194)));
+    RoutineOptions options;
+    Index starts = 0;
+    options.trace = [&](const Step& step) { starts += step.operation == "start-again"; };
+    CHECK(search(mesh, graphcut_labeling(mesh), options).score.invalid > 0);
+    CHECK(starts < 5);
 }
