@@ -190,7 +190,7 @@ std::vector<Report::Parameter> label_defaults() {
 std::string report_of(const char* command, const Arguments& arguments, const TriMesh& mesh, std::vector<Report::Layer> layers) {
     Report report;
     const std::string& part = arguments.operands[0];
-    report.title = title_of(part);
+    report.title = part.substr(part.find_last_of("/\\") + 1);
     report.parameters = {{"command", command}, {"part", part}};
     if (arguments.operands.size() > 1) report.parameters.push_back({"labels", arguments.operands[1]});
     for (const auto& [name, value] : arguments.options) report.parameters.push_back({name, value.empty() ? "yes" : value});
@@ -413,25 +413,15 @@ int run_volume_labels(const Arguments& arguments) {
     return kDone;
 }
 
-const std::string kPartFile =
-    "PART    a closed surface of triangles (.obj .stl .mesh .vtk) or a tet mesh (.mesh .vtk); feature edges as lines";
-const std::string kLabelsFile =
-    "\nLABELS  one label per triangle, in the order of the file: 0 = +X, 1 = -X, 2 = +Y, 3 = -Y, 4 = +Z, 5 = -Z";
-const std::string kElements = "\n\nElements in messages are counted from 0.";
-const std::string kNoResultStatus =
-    "2  no result: wrong use, wrong input, or an output that can't be written; one line says which";
-const std::string kJudgedStatus =
-    "0  the labeling is valid\n1  it is not; everything is written all the same\n" + kNoResultStatus;
-const std::string kDoneStatus = "0  done\n" + kNoResultStatus;
+const std::string kPartHelp =
+    "PART is a closed surface of triangles (.obj, .stl, .mesh, .vtk) or a tet mesh (.mesh, .vtk). Labels are 0 = +X, 1 = -X, 2 = +Y,\n"
+    "3 = -Y, 4 = +Z, 5 = -Z, one per triangle, in the order of the file. Elements in messages are counted from 0.";
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> table = {
         {"label",
          {"PART"},
-         "Gives every triangle of a CAD part one of six labels so that they form a polycube.\n\n"
-         "A graph-cut gives the first labels. The paper's operators repair charts, boundaries and corners until the labeling is\n"
-         "valid, then boundaries until they are monotone; what they have changed is polished. Elements in messages are counted\n"
-         "from 0.",
+         "Gives every triangle of a CAD part one of six labels so that they form a polycube.\n\n" + kPartHelp,
          {{"-o", "FILE",
            "where the labels go; standard output without this, or with -\n"
            "in .vtk (ParaView), .glb (coloured), .mesh (references) or .obj (materials): the labeled surface"},
@@ -457,35 +447,23 @@ const std::vector<Command>& commands() {
           kWeld,
           kQuiet,
           kVerbose},
-         run_label,
-         "0  the labeling is valid; with --method graphcut or naive: done\n1  it is not, or the run was interrupted: the best labels so far are written\n" +
-             kNoResultStatus,
-         kPartFile + kLabelsFile,
-         "polylab label part.obj -o labels.txt --report report.html\npolylab label tet.mesh -o labeled.vtk\npolylab label part.stl --weld --features detect --align -o labels.txt"},
+         run_label},
         {"stats",
          {"PART", "LABELS"},
-         "Counts charts, boundaries, corners, turning-points and feature edges of a labeling, as JSON." + kElements,
+         "Counts charts, boundaries, corners, turning-points and feature edges of a labeling, as JSON.\n\n" + kPartHelp,
          {kOutput, kReport, kPicture, kFeatures, kAlign, kWeld, kQuiet, kVerbose},
-         run_stats,
-         kJudgedStatus,
-         kPartFile + kLabelsFile,
-         "polylab stats part.obj labels.txt -o stats.json"},
+         run_stats},
         {"explain",
          {"PART", "LABELS"},
-         "Says in words which charts, boundaries and corners are invalid, and where boundaries turn; worst first." + kElements,
+         "Says in words which charts, boundaries and corners are invalid, and where boundaries turn; worst first.\n\n" +
+             kPartHelp,
          {kOutput, kReport, kFeatures, kAlign, kWeld, kQuiet, kVerbose},
-         run_explain,
-         kJudgedStatus,
-         kPartFile + kLabelsFile,
-         "polylab explain part.obj labels.txt\npolylab explain part.obj labels.txt -o problems.txt --report report.html"},
+         run_explain},
         {"diff",
          {"PART", "A", "B"},
-         "Says what changed from labeling A to labeling B." + kElements,
+         "Says what changed from labeling A to labeling B. Exit status 1 if anything did.\n\n" + kPartHelp,
          {kOutput, kFeatures, kAlign, kWeld, kQuiet, kVerbose},
-         run_diff,
-         "0  the labelings are equal\n1  they differ\n" + kNoResultStatus,
-         kPartFile + "\nA, B    labels, as LABELS of polylab label",
-         "polylab diff part.obj before.txt after.txt"},
+         run_diff},
         {"surface",
          {"TETS"},
          "Extracts the surface of a tet mesh, facing outward.",
@@ -493,35 +471,27 @@ const std::vector<Command>& commands() {
           {"--map", "FILE", "for each triangle of the surface: 4 * tetrahedron + local facet"},
           kQuiet,
           kVerbose},
-         run_surface,
-         kDoneStatus,
-         "TETS    a tet mesh (.mesh .vtk); lines = feature edges, of which those on the surface stay",
-         "polylab surface tet.mesh -o surface.obj --map map.txt"},
+         run_surface},
         {"volume-labels",
          {"LABELS", "MAP"},
          "Carries surface labels to the facets of the tetrahedra: four labels per tetrahedron, -1 inside.",
          {kOutput},
-         run_volume_labels,
-         kDoneStatus,
-         "LABELS  one label per triangle of the surface\nMAP     what polylab surface --map wrote",
-         "polylab volume-labels labels.txt map.txt -o volume_labels.txt"},
+         run_volume_labels},
         {"export",
          {"PART", "LABELS"},
-         "Writes a labeled surface for other programs." + kElements,
+         "Writes a labeled surface for other programs.\n\n" + kPartHelp,
          {{"-o", "FILE", ".vtk (ParaView), .glb (coloured), .mesh (labels as references) or .obj (PolyCut's materials)"},
           kFeatures,
           kAlign,
           kWeld,
           kQuiet,
           kVerbose},
-         run_export,
-         kDoneStatus,
-         kPartFile + kLabelsFile,
-         "polylab export part.obj labels.txt -o labeled.glb"},
+         run_export},
         {"polycube",
          {"PART", "LABELS"},
-         "Moves the surface onto the polycube that its labels ask for.\n\n"
-         "Each chart goes into a plane across its axis, by least squares. Vertices and facets keep their numbers.",
+         "Moves the surface onto the polycube that its labels ask for: each chart into a plane across its axis, by least squares.\n"
+         "Vertices and facets keep their numbers.\n\n" +
+             kPartHelp,
          {{"-o", "FILE", "the polycube: .obj or .mesh; as .obj to standard output without this, or with -"},
           {"--stats", "JSON", "also write the statistics, with the distortion of the polycube"},
           kFeatures,
@@ -529,19 +499,13 @@ const std::vector<Command>& commands() {
           kWeld,
           kQuiet,
           kVerbose},
-         run_polycube,
-         kDoneStatus,
-         kPartFile + kLabelsFile,
-         "polylab polycube part.obj labels.txt -o polycube.obj --stats stats.json"},
+         run_polycube},
         {"stages",
          {"PART", "DIR"},
-         "Writes what each step of the method gives, to compare a port with.\n\n"
-         "The files are 01-mesh.txt … 10-statistics.txt, which golden/README.md explains. All options are at their defaults.",
+         "Writes what each step of the method gives into the files 01-mesh.txt … 10-statistics.txt of a folder, to compare a\n"
+         "port with. golden/README.md explains them. All options are at their defaults.",
          {},
-         run_stages,
-         kDoneStatus,
-         kPartFile + "\nDIR     a folder that is there",
-         "polylab stages part.obj stages"},
+         run_stages},
     };
     return table;
 }
@@ -559,21 +523,17 @@ std::string overview() {
            "\nfirst steps:\n"
            "  polylab label part.obj -o labels.txt      label a part\n"
            "  polylab explain part.obj labels.txt       what is wrong with the result, if anything\n"
-           "  polylab help label                        all about a command\n\n"
+           "  polylab label --help                      all options of a command\n\n"
            "exit status: 0 done (and valid), 1 done but not valid, or interrupted (the best labels so far are written),\n"
-           "2 no result (wrong use, wrong input, output can't be written)\n\n"
-           "the published commands, where the program is called by their names (PREFIX/libexec/polylab has links):\n" +
-           dropin_overview();
+           "2 no result (wrong use, wrong input, output can't be written)\n";
 }
 
 int run(const std::vector<std::string>& words) {
-    std::string first = words.empty() ? "" : words[0];
-    bool wants_help = first == "--help" || first == "-h" || first == "help";
-    if (wants_help && words.size() < 2) {
+    const std::string first = words.empty() ? "" : words[0];
+    if (first == "--help" || first == "-h" || first == "help") {
         write_file("-", overview());
         return kDone;
     }
-    if (wants_help) first = words[1];
     if (first == "--version") {
         write_file("-",
                    program_name() + "\nthe same labels on Linux x86-64 and aarch64, built by g++ 12 or clang 14 and later\n");
@@ -582,10 +542,9 @@ int run(const std::vector<std::string>& words) {
     for (const Command& command : commands()) {
         if (command.name != first) continue;
         const std::vector<std::string> rest(words.begin() + 1, words.end());
-        const auto end = std::find(rest.begin(), rest.end(), "--");
-        wants_help = wants_help || std::find_if(rest.begin(), end,
-                                                [](const std::string& word) { return word == "--help" || word == "-h"; }) != end;
-        if (wants_help) {
+        for (const std::string& word : rest) {
+            if (word == "--") break;
+            if (word != "--help" && word != "-h") continue;
             write_file("-", help("polylab", command));
             return kDone;
         }

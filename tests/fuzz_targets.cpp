@@ -2,7 +2,10 @@
 
 #include "polylab/diff.h"
 #include "polylab/explain.h"
+#include "polylab/exports.h"
+#include "polylab/picture.h"
 #include "polylab/polylab.h"
+#include "polylab/report.h"
 #include "shapes.h"
 
 #include <algorithm>
@@ -54,19 +57,37 @@ void check_labels(const TriMesh& mesh, const Labeling& labels) {
     require(diff_text(mesh, labels, labels).find("0 of ") == 0, "no difference from itself");
 }
 
-// What is done with each mesh that a reader lets through.
+// What other programs are given of a labeled mesh reads back, also where coordinates are extreme.
+void check_outputs(TriMesh mesh, const Labeling& labels) {
+    const std::vector<Vec3> polycube = surface_polycube(mesh, labels);
+    distortion(mesh, polycube);
+    const auto exported = [&](const char* path) { return export_files(path, mesh, labels).at(0).content; };
+    require(read_vtk(exported("l.vtk"), "l.vtk").triangles == mesh.origin, "VTK reads back");
+    require(read_medit(exported("l.mesh"), "l.mesh").triangles == mesh.origin, "MEDIT reads back");
+    require(read_obj(exported("l.obj"), "l.obj").triangles == mesh.origin, "OBJ reads back");
+    accepted([&] { require(!exported("l.glb").empty(), "GLB"); });   // refused where single precision is too small
+    require(!png_picture(mesh, build_graph(mesh, labels), 32).empty(), "picture");
+    require(!report_html(mesh, {"part", {}, {{"given", labels}}, polycube}).empty(), "report");
+    rotate(mesh, own_frame(mesh));
+    validate(mesh);
+}
+
+// What is done with each mesh that a reader lets through; where it is refused, once more with its vertices welded.
 void check_surface(MeshData data) {
-    accepted([&] {
-        if (!data.tets.empty()) {
-            const TetSurface surface = extract_surface(data);
+    const auto build = [](MeshData d) {
+        if (!d.tets.empty()) {
+            const TetSurface surface = extract_surface(d);
             const Labeling labels(surface.map.tet_facet.size(), 3);
-            require(volume_labels(labels, surface.map).size() == data.tets.size(), "four labels per tetrahedron");
-            data = surface.surface;
+            require(volume_labels(labels, surface.map).size() == d.tets.size(), "four labels per tetrahedron");
+            d = surface.surface;
         }
-        const TriMesh mesh = build_mesh(std::move(data));
+        const TriMesh mesh = build_mesh(std::move(d));
         validate(mesh);
         check_labels(mesh, naive_labeling(mesh));
-    });
+    };
+    if (accepted([&] { build(data); })) return;
+    weld(data);
+    accepted([&] { build(data); });
 }
 
 void target_obj(std::string_view bytes) {
@@ -95,6 +116,14 @@ void target_stl(std::string_view bytes) {
     });
 }
 
+void target_vtk(std::string_view bytes) {
+    accepted([&] {
+        MeshData data = read_vtk(bytes, "in.vtk");
+        check_data(data);
+        check_surface(std::move(data));
+    });
+}
+
 void target_labels(std::string_view bytes) {
     const Choose choose = choices_of_bytes(bytes.substr(0, 2));
     const bool allow_free = choose(2) == 1;
@@ -116,7 +145,8 @@ void target_surface_map(std::string_view bytes) {
     });
 }
 
-// Arbitrary labels on an arbitrary mesh: charts, boundaries, corners, turning-points, their explanation and statistics.
+// Arbitrary labels on an arbitrary mesh: charts, boundaries, corners, turning-points, their explanation and statistics; at times
+// all that is written of them.
 void target_labeling(std::string_view bytes) {
     const Choose choose = choices_of_bytes(bytes);
     accepted([&] {
@@ -124,14 +154,18 @@ void target_labeling(std::string_view bytes) {
         Labeling labels(mesh.facets());
         for (Label& l : labels) l = static_cast<Label>(choose(kLabels));
         check_labels(mesh, labels);
+        if (choose(64) == 1) check_outputs(mesh, labels);
     });
 }
 
+// Small meshes and, most times, small budgets: many runs tell more than long ones, which test_soup.cpp has.
 void target_pipeline(std::string_view bytes) {
+    constexpr std::size_t kMostFacets = 60;
+    constexpr int kBudgets[] = {2, 2, 4, 4, 8, 16, 32, 200};
     const Choose choose = choices_of_bytes(bytes);
-    const bool noise = choose(4) > 0;
+    const Index kind = choose(32);
     const MeshData data = soup(choose);
-    label_soup(data, choose, noise, 400);
+    if (data.triangles.size() <= 3 * kMostFacets) label_soup(data, choose, /* noise= */ kind % 4 > 0, kBudgets[kind / 4]);
 }
 
 // ---- soups
@@ -203,12 +237,6 @@ MeshData part(const Choose& choose) {
     }
 }
 
-// Corners on the same place become one vertex.
-void weld_points(MeshData& d) {
-    for (Index& v : d.triangles)
-        v = static_cast<Index>(std::find(d.points.begin(), d.points.end(), d.points[v]) - d.points.begin());
-}
-
 void spoil(MeshData& d, const Choose& choose) {
     const Index vertices = static_cast<Index>(d.points.size()), facets = static_cast<Index>(d.triangles.size() / 3);
     const Index f = choose(facets), v = choose(vertices), w = choose(vertices);
@@ -226,7 +254,7 @@ void spoil(MeshData& d, const Choose& choose) {
         }
         case 4: std::replace(d.triangles.begin(), d.triangles.end(), v, w); break;
         case 5: d.points[v] = d.points[w]; break;
-        case 6: weld_points(d); break;
+        case 6: weld(d); break;
         case 7: {
             const double scales[] = {1e-200, 1e-30, 1e-9, 0, 1e9, 1e70, 1e75, 1e300};
             d = shapes::scaled(std::move(d), scales[choose(8)]);
@@ -298,7 +326,7 @@ bool label_soup(const MeshData& data, const Choose& choose, bool noise, int most
             }
         }
         const Score start = Judge(mesh, true, options.locks).state(labels).score;
-        const State result = run_routines(mesh, labels, options);
+        const State result = search(mesh, labels, options);
         require(!(start < result.score), "the result is no worse than its start");
         require(result.score == Judge(mesh, true, options.locks).state(result.labels).score, "the score is of the labels");
         for (std::size_t f = 0; f < options.locks.size(); f++)
@@ -309,13 +337,9 @@ bool label_soup(const MeshData& data, const Choose& choose, bool noise, int most
 
 const std::vector<Target>& targets() {
     static const std::vector<Target> table = {
-        {"obj", target_obj},
-        {"medit", target_medit},
-        {"stl", target_stl},
-        {"labels", target_labels},
-        {"surface_map", target_surface_map},
-        {"labeling", target_labeling},
-        {"pipeline", target_pipeline},
+        {"obj", target_obj},           {"medit", target_medit},       {"stl", target_stl},
+        {"vtk", target_vtk},           {"labels", target_labels},     {"surface_map", target_surface_map},
+        {"labeling", target_labeling}, {"pipeline", target_pipeline},
     };
     return table;
 }
