@@ -4,9 +4,9 @@
 MODULES = costs orientation mesh align text io tet_surface maxflow alpha_expansion initial_labeling labeling_graph \
           turning_points patch polycube json statistics explain diff state paths validity_operators quality_operators routines \
           polish search polylab stages exports report picture cli mesh_stats dropin
-TESTS = $(wildcard tests/*.cpp)
+TESTS = $(filter-out tests/test_rays.cpp,$(wildcard tests/*.cpp))
 
-# To choose on the command line: config=release|debug|sanitize|coverage  werror=1  builddir=DIR  verbose=1  CXX=…  CXXFLAGS=…
+# To choose on the command line: config=release|debug|sanitize|coverage  werror=1  EMBREE=1  builddir=DIR  verbose=1  CXX=…  CXXFLAGS=…
 config = release
 builddir = build
 PREFIX = /usr/local
@@ -46,7 +46,7 @@ dry_run = $(findstring n,$(firstword -$(MAKEFLAGS)))
 
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
-.PHONY: all demo test fuzz golden golden-update remarks bench tie-audit doctest static amalgamated coverage install format format-fix tidy clean help FORCE
+.PHONY: all demo test rays skip-rays fuzz golden golden-update remarks bench tie-audit doctest static amalgamated coverage install format format-fix tidy clean help FORCE
 
 all: $(program)
 
@@ -65,7 +65,7 @@ $(library): $(library_objects)
 $(objects)/src/main.o: private defines = -DPOLYLAB_COMMIT='"$(commit)"'
 $(objects)/src/main.o: $(objects)/commit
 $(objects)/tests/%.o: private defines = $(test_defines)
-$(test_objects): | doctest
+$(test_objects) $(objects)/tests/test_rays.o: | doctest
 $(objects)/%.o: %.cpp $(objects)/flags
 	@mkdir -p $(@D)
 	$(say)
@@ -84,12 +84,22 @@ demo: $(program)
 	@mkdir -p $(out)/demo
 	$(program) label $(demo_model) -o $(out)/demo/labels.txt --stats $(out)/demo/stats.json --verbose
 
-test: $(tests) $(program)
+test: $(tests) $(program) $(if $(EMBREE),rays)
 	@$(tests)
 
 $(tests): $(test_objects) $(library)
 	$(say)
 	$(quiet)$(link) -o $@ $^
+
+# Rays as an oracle, where Embree 3 is installed; POLYLAB_CORPUS=DIR adds surfaces of your own.
+have_embree = $(shell echo '\#include <embree3/rtcore.h>' | $(CXX) $(CPPFLAGS) -E -x c++ - >/dev/null 2>&1 && echo yes)
+rays: $(if $(have_embree),$(out)/rays,skip-rays)
+	$(if $(have_embree),@$(out)/rays)
+skip-rays:
+	@echo "  skipped: $$(grep -c ^TEST_CASE tests/test_rays.cpp) tests with rays, since embree3/rtcore.h is not here; type: sudo apt-get install libembree-dev"
+$(out)/rays: $(objects)/tests/test_rays.o $(objects)/tests/main.o $(objects)/tests/shapes.o $(library)
+	$(say)
+	$(quiet)$(link) -o $@ $^ -lembree3
 
 doctest:
 	@$(if $(or $(dry_run),$(shell tools/get_doctest.sh $(CXX) $(CPPFLAGS) && echo found)),:,$(error tests need the header doctest/doctest.h; type: sudo apt-get install doctest-dev))
@@ -181,6 +191,7 @@ help:
 	@echo "make              build/polylab and build/libpolylab.a"
 	@echo "make demo         labels the CAD model $(demo_model)"
 	@echo "make test         builds and runs the tests (doctest)"
+	@echo "make rays         holds orientation, convexity and labels against rays, where Embree 3 is; so does make test EMBREE=1"
 	@echo "make fuzz         libFuzzer on every reader, on labelings and on the whole method, SECONDS=$(SECONDS) each (clang++)"
 	@echo "make golden       compares with the golden cases; golden-update CASE=... rewrites some"
 	@echo "make tie-audit    by how much the comparisons that decide labels are decided"
