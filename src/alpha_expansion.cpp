@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace polylab {
 
@@ -24,8 +25,8 @@ std::int64_t PottsEnergy::operator()(const Labeling& labels) const {
     return sum;
 }
 
-Expansion::Expansion(const PottsEnergy& energy) : energy_(energy), first_(energy.data.size() + 2, 0) {
-    const std::size_t edges = energy.weight.size(), sites = energy.data.size();
+Expansion::Expansion(PottsEnergy energy) : data_(std::move(energy.data)), first_(data_.size() + 2, 0) {
+    const std::size_t edges = energy.weight.size(), sites = data_.size();
     // first_[i + 2] counts the arcs of i, then first_[i + 1] is the place for its next arc, and in the end where they end.
     for (std::size_t e = 0; e < edges; e++) {
         assert(energy.ends[2 * e] != energy.ends[2 * e + 1]);
@@ -48,14 +49,14 @@ Expansion::Expansion(const PottsEnergy& energy) : energy_(energy), first_(energy
 }
 
 bool Expansion::move(Label alpha, Labeling& labels) {
-    const Index sites = static_cast<Index>(energy_.data.size());
+    const Index sites = static_cast<Index>(data_.size());
     queue_.clear();
     for (Index i = 0; i < sites; i++) {
         if (labels[i] == alpha) {
             choice_[i] = Choice::keeps;
             continue;
         }
-        Index excess = 2 * (energy_.data[i][labels[i]] - energy_.data[i][alpha]), around = 0;
+        Index excess = 2 * (data_[i][labels[i]] - data_[i][alpha]), around = 0;
         for (Index a = arc_begin(i); a < arc_end(i); a++) {
             const Label other = labels[arcs_[a].site];
             const Index w = arcs_[a].weight;
@@ -147,7 +148,7 @@ std::int64_t Expansion::gain(Label alpha, const Labeling& labels) const {
     std::int64_t sum = 0;
     for (Index i = 0; i < static_cast<Index>(labels.size()); i++) {
         if (choice_[i] != Choice::takes) continue;
-        sum += 2 * (energy_.data[i][labels[i]] - energy_.data[i][alpha]);
+        sum += 2 * (data_[i][labels[i]] - data_[i][alpha]);
         for (Index a = arc_begin(i); a < arc_end(i); a++) {
             const Index j = arcs_[a].site, w = arcs_[a].weight;
             const bool both = choice_[j] == Choice::takes;   // then the edge is met twice
@@ -158,8 +159,8 @@ std::int64_t Expansion::gain(Label alpha, const Labeling& labels) const {
     return sum;
 }
 
-Labeling alpha_expansion(const PottsEnergy& energy, Labeling start, int cycles, const Stop& stop) {
-    Expansion expansion(energy);
+Labeling alpha_expansion(PottsEnergy energy, Labeling start, int cycles, const Stop& stop) {
+    Expansion expansion(std::move(energy));
     bool changed = true;
     for (int cycle = 0; cycle < cycles && changed; cycle++) {
         changed = false;

@@ -86,16 +86,20 @@ PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) 
 }
 
 Labeling graphcut_labeling(const TriMesh& mesh, const InitialOptions& options, const Labeling& locks, const Stop& stop) {
-    PottsEnergy energy = labeling_energy(mesh, options);
-    for (std::size_t f = 0; f < locks.size(); f++)
-        for (Label l = 0; l < kLabels; l++)
-            if (locks[f] != kNoLabel && locks[f] != l) energy.data[f][l] += kLockCost;
-    Labeling labels = alpha_expansion(energy, Labeling(mesh.facets(), 0), kCycles, stop);
+    const auto energy = [&] {
+        PottsEnergy locked = labeling_energy(mesh, options);
+        for (std::size_t f = 0; f < locks.size(); f++)
+            for (Label l = 0; l < kLabels; l++)
+                if (locks[f] != kNoLabel && locks[f] != l) locked.data[f][l] += kLockCost;
+        return locked;
+    };
+    Labeling labels = alpha_expansion(energy(), Labeling(mesh.facets(), 0), kCycles, stop);
     if (!stop || !stop()) return labels;
     Labeling naive = naive_labeling(mesh);
     for (std::size_t f = 0; f < locks.size(); f++)
         if (locks[f] != kNoLabel) naive[f] = locks[f];
-    return energy(naive) < energy(labels) ? naive : labels;
+    const PottsEnergy judge = energy();
+    return judge(naive) < judge(labels) ? naive : labels;
 }
 
 }   // namespace polylab

@@ -58,7 +58,7 @@ Proposals Redraw::operator()(const State& state, const std::vector<Index>& facet
     }
     std::vector<std::int16_t>& pairwise = pairwise_[compactness];
     pairwise.resize(mesh_.halfedges(), kNone);
-    const PottsEnergy energy = local_energy(
+    Expansion expansion(local_energy(
         mesh_, state.labels, facets,
         [&](Index f, Label l) { return static_cast<Index>(kDataScale * (1 - along(mesh_.normal[f], l)) + 0.5); },
         [&](Index h) {
@@ -68,8 +68,7 @@ Proposals Redraw::operator()(const State& state, const std::vector<Index>& facet
                 cost = static_cast<std::int16_t>(mesh_.feature[h] ? 0 : pairwise_cost(n, m, compactness));
             }
             return static_cast<Index>(cost);
-        });
-    Expansion expansion(energy);
+        }));
     for (Label l = 0; l < kLabels; l++)
         if (occurs[l]) expansion.move(l, labels);
     Patch patch;

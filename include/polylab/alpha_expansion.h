@@ -23,7 +23,7 @@ struct PottsEnergy {
     std::int64_t operator()(const Labeling& labels) const;
 };
 
-// The moves of one energy, which has to outlive it. A site on the source side of the cut takes alpha, one on the sink side
+// The moves of one energy. A site on the source side of the cut takes alpha, one on the sink side
 // keeps its label. Most sites are decided before the max-flow: one whose own gain outweighs all of its edges takes alpha
 // whatever its neighbours do, and one whose loss does keeps its label; that settles its edges, and may decide its neighbours.
 // Of the rest, connected sites of which none would lose by alpha take it, and of which none would gain keep. What is left is
@@ -31,7 +31,7 @@ struct PottsEnergy {
 // port: any exact construction gives the same moves, since the minimum cut with the largest source side is unique.
 class Expansion {
 public:
-    explicit Expansion(const PottsEnergy& energy);   // O(sites + edges)
+    explicit Expansion(PottsEnergy energy);   // O(sites + edges)
 
     // The best move towards alpha from `labels`: applied, and true returned, if its energy is lower than before.
     // tie: among the moves of least energy, the one in which most sites take alpha. O(sites + edges), and one max-flow.
@@ -51,9 +51,9 @@ private:
     void solve_core(const Labeling& labels);
     std::int64_t gain(Label alpha, const Labeling& labels) const;
 
-    const PottsEnergy& energy_;
-    std::vector<Index> first_;   // the arcs of site i are first_[i] .. first_[i+1] - 1
-    std::vector<Arc> arcs_;      // edges with a weight, from both ends
+    std::vector<std::array<Index, kLabels>> data_;   // as in the energy
+    std::vector<Index> first_;                       // the arcs of site i are first_[i] .. first_[i+1] - 1
+    std::vector<Arc> arcs_;                          // edges with a weight, from both ends
 
     // Of the current move, all costs doubled:
     std::vector<Choice> choice_;
@@ -68,6 +68,6 @@ private:
 
 // Cycles over the labels 0..5 in this order, at most `cycles`, ending early after a cycle without change, or before the
 // next move once `stop` says so.
-Labeling alpha_expansion(const PottsEnergy& energy, Labeling start, int cycles = 2, const Stop& stop = {});
+Labeling alpha_expansion(PottsEnergy energy, Labeling start, int cycles = 2, const Stop& stop = {});
 
 }   // namespace polylab
