@@ -130,7 +130,7 @@ def text_table(lines):
 
 
 STYLE = '''body { font: 15px/1.4 system-ui, sans-serif; margin: 1.5em; color: #1c232b; background: #f4f6f8; }
-table { border-collapse: collapse; font-size: 13px; } td, th { padding: 3px 8px; border: 1px solid #c5ccd4; text-align: right; }
+table { display: block; overflow-x: auto; border-collapse: collapse; font-size: 13px; } td, th { padding: 3px 8px; border: 1px solid #c5ccd4; text-align: right; }
 td:nth-child(-n+2) { text-align: left; } h2 { font-size: 17px; margin: 1.4em 0 .5em; } tr:nth-child(odd) td { font-weight: 600; }
 .parts { display: grid; grid-template-columns: repeat(auto-fill, minmax(170px, 1fr)); gap: 10px; }
 .parts a { padding: 8px; border-top: 5px solid #2e7d4f; background: #fff; color: inherit; text-decoration: none; font-size: 13px; }
