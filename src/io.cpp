@@ -551,7 +551,7 @@ Labeling read_labels(const std::string& path, Index facets, bool allow_free) {
 
 std::string labels_text(const Labeling& labels) {
     std::string out;
-    out.reserve(2 * labels.size());
+    out.reserve(3 * labels.size());   // of volume labels most are -1
     for (const Label l : labels) {
         if (l >= 0 && l <= 9)
             out += static_cast<char>('0' + l);

@@ -122,6 +122,15 @@ FeatureOptions feature_options(const Arguments& arguments) {
 // facet on a cube of 388800 facets.
 std::string memory_needed;
 constexpr Index kFacetsPerMegabyte = 5000;
+constexpr Index kTetsPerMegabyte = 62500;   // four labels of one byte each, their text of three
+
+std::int64_t megabytes_here() {
+#if defined(_SC_PHYS_PAGES)
+    return static_cast<std::int64_t>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE) / 1000000;
+#else
+    return std::numeric_limits<std::int64_t>::max();
+#endif
+}
 
 // With --align the mesh comes turned, and `rotation` says how, row by row; otherwise it is empty.
 TriMesh read_part(const Arguments& arguments, const Console& console, std::vector<double>& rotation) {
@@ -408,6 +417,10 @@ int run_stages(const Arguments& arguments) {
 
 int run_volume_labels(const Arguments& arguments) {
     const SurfaceMap map = read_surface_map(arguments.operands[1]);
+    // The number of tetrahedra is only a claim of the file. Linux would hand out more than there is, and kill later.
+    const std::int64_t megabytes = map.tets / kTetsPerMegabyte;
+    memory_needed = "; the labels of " + std::to_string(map.tets) + " tetrahedra take about " + std::to_string(megabytes) + " MB";
+    if (megabytes > megabytes_here()) throw std::bad_alloc();
     const Labeling labels = read_labels(arguments.operands[0], static_cast<Index>(map.tet_facet.size()));
     write_file(arguments.get("-o", "-"), labels_text(volume_labels(labels, map)));
     return kDone;
