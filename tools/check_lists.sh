@@ -13,13 +13,14 @@ for list in make cmake; do
         status=1
     done
 done
-before="base vec3 labels marks"
-for module in $(sed -n '/^MODULES/ { :more; /\\$/ { N; b more; }; s/\\\n//g; s/^MODULES *= *//p; }' Makefile); do
+before=
+for module in base vec3 labels marks $(sed -n '/^MODULES/ { :more; /\\$/ { N; b more; }; s/\\\n//g; s/^MODULES *= *//p; }' Makefile); do
     before="$before $module"
-    for header in $(sed -n 's|^#include "polylab/\(.*\)\.h"|\1|p' "include/polylab/$module.h" "src/$module.cpp"); do
+    for header in $(cat "include/polylab/$module.h" "src/$module.cpp" 2>/dev/null | sed -n 's|^ *# *include *"\(.*\.h\)".*|\1|p'); do
+        name=${header#polylab/}
         case " $before " in
-        *" $header "*) ;;
-        *) echo "$module includes polylab/$header.h, which is not below it" >&2; status=1 ;;
+        *" ${name%.h} "*) ;;
+        *) echo "$module includes $header, which is not below it" >&2; status=1 ;;
         esac
     done
 done
