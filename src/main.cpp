@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <new>
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -523,6 +524,15 @@ const std::vector<Command>& commands() {
     return table;
 }
 
+// No output goes to the place of the part.
+void spare_part(const Arguments& arguments) {
+    std::error_code ignored;
+    for (const char* name : {"-o", "--stats", "--report", "--picture", "--trace", "--map"})
+        if (arguments.has(name) && std::filesystem::is_regular_file(arguments.get(name), ignored) &&
+            std::filesystem::equivalent(arguments.get(name), arguments.operands[0], ignored))
+            throw InputError(arguments.get(name), 0, "can't be written: it is read as " + arguments.operands[0]);
+}
+
 std::string overview() {
     std::string text =
         "polylab gives every triangle of a CAD part's surface one of six labels +X -X +Y -Y +Z -Z: a polycube labeling.\n\n"
@@ -562,7 +572,9 @@ int run(const std::vector<std::string>& words) {
             return kDone;
         }
         try {
-            return command.run(parse_arguments(command, rest));
+            const Arguments arguments = parse_arguments(command, rest);
+            spare_part(arguments);
+            return command.run(arguments);
         } catch (const UsageError& error) {
             std::fprintf(stderr, "polylab %s: %s (see polylab %s --help)\n", first.c_str(), error.what(), first.c_str());
             return kNoResult;

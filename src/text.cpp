@@ -108,11 +108,13 @@ Part write_part(const Output& output) {
     Part result;
     if (output.path == "-") return result;
     std::error_code error;
+    // Before links are resolved: what /dev/stdout points to has no name where it is a pipe.
+    const fs::file_status given = fs::status(output.path, error);
+    if (fs::exists(given) && !fs::is_regular_file(given) && !fs::is_directory(given)) return result;
     result.target = link_target(output.path);
     if (fs::is_symlink(result.target, error)) refuse_output(output.path, "too many symbolic links");
     const fs::file_status status = fs::status(result.target, error);
     if (fs::is_directory(status)) refuse_output(output.path, "it is a directory");
-    if (fs::exists(status) && !fs::is_regular_file(status)) return result;
     // A file that its owner made read-only stays as it is, although renaming over it would be allowed.
     if (fs::exists(status)) {
         const File file(std::fopen(result.target.c_str(), "r+b"));
@@ -144,7 +146,12 @@ void write_files(const std::vector<Output>& outputs) {
     std::vector<Part> parts;
     std::error_code error;
     try {
-        for (const Output& output : outputs) parts.push_back(write_part(output));
+        for (const Output& output : outputs) {
+            parts.push_back(write_part(output));
+            for (std::size_t i = 0; i + 1 < parts.size(); i++)
+                if (!parts[i].part.empty() && parts[i].target == parts.back().target)
+                    refuse_output(output.path, "it is the place of another output too");
+        }
         for (std::size_t i = 0; i < outputs.size(); i++)
             if (parts[i].part.empty()) write_through(outputs[i]);
         for (std::size_t i = 0; i < outputs.size(); i++) {

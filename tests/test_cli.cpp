@@ -456,6 +456,29 @@ TEST_CASE("cli: output that can't be written is status 2") {
     CHECK(check_done(scratch, "label cube.obj -o /dev/null").out.empty());
 }
 
+TEST_CASE("cli: /dev/stdout is written through where it is a pipe") {
+    if (!fs::exists("/dev/stdout")) return;
+    const Scratch scratch;
+    const Result r = scratch.run("label cube.obj -o /dev/stdout | cat");
+    CHECK(r.out == kNaive);
+    CHECK(r.err.empty());
+}
+
+TEST_CASE("cli: an output takes neither the place of the part nor that of another output") {
+    const Scratch scratch;
+    const std::string part = scratch.read("cube.obj");
+    fs::create_symlink("cube.obj", scratch.path("link.obj"));
+    check_refused(scratch, "label cube.obj -o cube.obj", "cube.obj: can't be written: it is read as cube.obj");
+    check_refused(scratch, "label cube.obj -o l.txt --stats link.obj", "link.obj: can't be written: it is read as cube.obj");
+    CHECK(scratch.read("cube.obj") == part);
+    check_refused(scratch, "label cube.obj -o x --stats x", "x: can't be written: it is the place of another output too");
+    scratch.write("l.txt", "old");
+    check_refused(scratch, "label cube.obj -o l.txt --stats l.txt", "l.txt: can't be written: it is the place of");
+    CHECK(scratch.read("l.txt") == "old");
+    check_done(scratch, "label cube.obj -o /dev/null --stats /dev/null");
+    check_done(scratch, "label cube.obj --init naive.txt -o naive.txt");   // labels may be replaced
+}
+
 TEST_CASE("cli: a result replaces an older file as a whole") {
     const Scratch scratch;
     scratch.write("l.txt", std::string(1000, '7'));
