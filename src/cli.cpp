@@ -80,23 +80,42 @@ Arguments parse_arguments(const Command& command, const std::vector<std::string>
     return arguments;
 }
 
+namespace {
+
+std::string indented(const std::string& lines, std::size_t columns) {
+    std::string text;
+    bool fresh = true;   // nothing in this line yet
+    for (const char c : lines) {
+        if (fresh && c != '\n') text.append(columns, ' ');
+        text += c;
+        fresh = c == '\n';
+    }
+    return text + '\n';
+}
+
+std::string section(const char* title, const std::string& lines) {
+    return lines.empty() ? "" : std::string("\n") + title + "\n" + indented(lines, 4);
+}
+
+}   // namespace
+
 std::string help(const std::string& program, const Command& command) {
-    std::string text = "usage: " + program + " " + command.name;
-    for (const std::string& operand : command.operands) text += " " + operand;
-    text += " [options]\n\n" + command.about + "\n\noptions:\n";
+    std::string synopsis = program + " " + command.name;
+    for (const std::string& operand : command.operands) synopsis += " " + operand;
+    if (!command.options.empty()) synopsis += " [options]";
+    const std::size_t end = command.about.find('\n');
+    const std::string name = program + " " + command.name + ": " + command.about.substr(0, end);
+    const std::string details = end == std::string::npos ? "" : command.about.substr(command.about.find_first_not_of('\n', end));
+    std::string text = "NAME\n" + indented(name, 4) + section("SYNOPSIS", synopsis) + section("DESCRIPTION", details);
     std::size_t width = 0;
     for (const Option& o : command.options) width = std::max(width, o.name.size() + o.value.size() + 1);
+    if (!command.options.empty()) text += "\nOPTIONS\n";
     for (const Option& o : command.options) {
-        std::string head = "  " + o.name + (o.value.empty() ? "" : " " + o.value);
-        head.resize(width + 4, ' ');
-        text += head;
-        for (const char c : o.help) {
-            text += c;
-            if (c == '\n') text += std::string(width + 4, ' ');
-        }
-        text += '\n';
+        const std::string head = "    " + o.name + (o.value.empty() ? "" : " " + o.value);
+        text += head + indented(o.help, width + 6).substr(head.size());
     }
-    return text;
+    return text + section("EXIT STATUS", command.status) + section("FILES", command.files) +
+           section("EXAMPLES", command.examples);
 }
 
 }   // namespace polylab

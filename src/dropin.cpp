@@ -196,7 +196,7 @@ void run_labeling_viewer(const Arguments& given) {
     const TriMesh mesh = read_dropin_surface(part);
     const Labeling labels = read_labels(labels_file, mesh.facets());
     Report report;
-    report.title = std::filesystem::path(part).filename().string();
+    report.title = title_of(part);
     report.parameters = {{"part", part}, {"labels", labels_file}};
     report.layers = {{"naive", naive_labeling(mesh)}, {"graph-cut", graphcut_labeling(mesh)}, {"given", labels}};
     if (build_graph(mesh, labels).valid()) report.polycube = surface_polycube(mesh, labels);

@@ -57,7 +57,7 @@ std::string vtk_text(const TriMesh& mesh, const Labeling& labels) {
         append(out, fidelity(mesh.normal[f], labels[f]));
         out += '\n';
     }
-    out += "NORMALS normal double\n";
+    out += "VECTORS normal double\n";
     for (const Vec3& n : mesh.normal) append_vector(out, n);
     return out;
 }

@@ -200,7 +200,7 @@ std::vector<Report::Parameter> label_defaults() {
 std::string report_of(const char* command, const Arguments& arguments, const TriMesh& mesh, std::vector<Report::Layer> layers) {
     Report report;
     const std::string& part = arguments.operands[0];
-    report.title = part.substr(part.find_last_of("/\\") + 1);
+    report.title = title_of(part);
     report.parameters = {{"command", command}, {"part", part}};
     if (arguments.operands.size() > 1) report.parameters.push_back({"labels", arguments.operands[1]});
     for (const auto& [name, value] : arguments.options) report.parameters.push_back({name, value.empty() ? "yes" : value});
@@ -427,15 +427,25 @@ int run_volume_labels(const Arguments& arguments) {
     return kDone;
 }
 
-const std::string kPartHelp =
-    "PART is a closed surface of triangles (.obj, .stl, .mesh, .vtk) or a tet mesh (.mesh, .vtk). Labels are 0 = +X, 1 = -X, 2 = +Y,\n"
-    "3 = -Y, 4 = +Z, 5 = -Z, one per triangle, in the order of the file. Elements in messages are counted from 0.";
+const std::string kPartFile =
+    "PART    a closed surface of triangles (.obj .stl .mesh .vtk) or a tet mesh (.mesh .vtk); feature edges as lines";
+const std::string kLabelsFile =
+    "\nLABELS  one label per triangle, in the order of the file: 0 = +X, 1 = -X, 2 = +Y, 3 = -Y, 4 = +Z, 5 = -Z";
+const std::string kElements = "\n\nElements in messages are counted from 0.";
+const std::string kNoResultStatus =
+    "2  no result: wrong use, wrong input, or an output that can't be written; one line says which";
+const std::string kJudgedStatus =
+    "0  the labeling is valid\n1  it is not; everything is written all the same\n" + kNoResultStatus;
+const std::string kDoneStatus = "0  done\n" + kNoResultStatus;
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> table = {
         {"label",
          {"PART"},
-         "Gives every triangle of a CAD part one of six labels so that they form a polycube.\n\n" + kPartHelp,
+         "Gives every triangle of a CAD part one of six labels so that they form a polycube.\n\n"
+         "A graph-cut gives the first labels. The paper's operators repair charts, boundaries and corners until the labeling is\n"
+         "valid, then boundaries until they are monotone; what they have changed is polished. Elements in messages are counted\n"
+         "from 0.",
          {{"-o", "FILE",
            "where the labels go; standard output without this, or with -\n"
            "in .vtk (ParaView), .glb (coloured), .mesh (references) or .obj (materials): the labeled surface"},
@@ -461,23 +471,35 @@ const std::vector<Command>& commands() {
           kWeld,
           kQuiet,
           kVerbose},
-         run_label},
+         run_label,
+         "0  the labeling is valid; with --method graphcut or naive: done\n1  it is not, or the run was interrupted: the best labels so far are written\n" +
+             kNoResultStatus,
+         kPartFile + kLabelsFile,
+         "polylab label part.obj -o labels.txt --report report.html\npolylab label tet.mesh -o labeled.vtk\npolylab label part.stl --weld --features detect --align -o labels.txt"},
         {"stats",
          {"PART", "LABELS"},
-         "Counts charts, boundaries, corners, turning-points and feature edges of a labeling, as JSON.\n\n" + kPartHelp,
+         "Counts charts, boundaries, corners, turning-points and feature edges of a labeling, as JSON." + kElements,
          {kOutput, kReport, kPicture, kFeatures, kAlign, kWeld, kQuiet, kVerbose},
-         run_stats},
+         run_stats,
+         kJudgedStatus,
+         kPartFile + kLabelsFile,
+         "polylab stats part.obj labels.txt -o stats.json"},
         {"explain",
          {"PART", "LABELS"},
-         "Says in words which charts, boundaries and corners are invalid, and where boundaries turn; worst first.\n\n" +
-             kPartHelp,
+         "Says in words which charts, boundaries and corners are invalid, and where boundaries turn; worst first." + kElements,
          {kOutput, kReport, kFeatures, kAlign, kWeld, kQuiet, kVerbose},
-         run_explain},
+         run_explain,
+         kJudgedStatus,
+         kPartFile + kLabelsFile,
+         "polylab explain part.obj labels.txt\npolylab explain part.obj labels.txt -o problems.txt --report report.html"},
         {"diff",
          {"PART", "A", "B"},
-         "Says what changed from labeling A to labeling B. Exit status 1 if anything did.\n\n" + kPartHelp,
+         "Says what changed from labeling A to labeling B." + kElements,
          {kOutput, kFeatures, kAlign, kWeld, kQuiet, kVerbose},
-         run_diff},
+         run_diff,
+         "0  the labelings are equal\n1  they differ\n" + kNoResultStatus,
+         kPartFile + "\nA, B    labels, as LABELS of polylab label",
+         "polylab diff part.obj before.txt after.txt"},
         {"surface",
          {"TETS"},
          "Extracts the surface of a tet mesh, facing outward.",
@@ -485,27 +507,35 @@ const std::vector<Command>& commands() {
           {"--map", "FILE", "for each triangle of the surface: 4 * tetrahedron + local facet"},
           kQuiet,
           kVerbose},
-         run_surface},
+         run_surface,
+         kDoneStatus,
+         "TETS    a tet mesh (.mesh .vtk); lines = feature edges, of which those on the surface stay",
+         "polylab surface tet.mesh -o surface.obj --map map.txt"},
         {"volume-labels",
          {"LABELS", "MAP"},
          "Carries surface labels to the facets of the tetrahedra: four labels per tetrahedron, -1 inside.",
          {kOutput},
-         run_volume_labels},
+         run_volume_labels,
+         kDoneStatus,
+         "LABELS  one label per triangle of the surface\nMAP     what polylab surface --map wrote",
+         "polylab volume-labels labels.txt map.txt -o volume_labels.txt"},
         {"export",
          {"PART", "LABELS"},
-         "Writes a labeled surface for other programs.\n\n" + kPartHelp,
+         "Writes a labeled surface for other programs." + kElements,
          {{"-o", "FILE", ".vtk (ParaView), .glb (coloured), .mesh (labels as references) or .obj (PolyCut's materials)"},
           kFeatures,
           kAlign,
           kWeld,
           kQuiet,
           kVerbose},
-         run_export},
+         run_export,
+         kDoneStatus,
+         kPartFile + kLabelsFile,
+         "polylab export part.obj labels.txt -o labeled.glb"},
         {"polycube",
          {"PART", "LABELS"},
-         "Moves the surface onto the polycube that its labels ask for: each chart into a plane across its axis, by least squares.\n"
-         "Vertices and facets keep their numbers.\n\n" +
-             kPartHelp,
+         "Moves the surface onto the polycube that its labels ask for.\n\n"
+         "Each chart goes into a plane across its axis, by least squares. Vertices and facets keep their numbers.",
          {{"-o", "FILE", "the polycube: .obj or .mesh; as .obj to standard output without this, or with -"},
           {"--stats", "JSON", "also write the statistics, with the distortion of the polycube"},
           kFeatures,
@@ -513,13 +543,19 @@ const std::vector<Command>& commands() {
           kWeld,
           kQuiet,
           kVerbose},
-         run_polycube},
+         run_polycube,
+         kDoneStatus,
+         kPartFile + kLabelsFile,
+         "polylab polycube part.obj labels.txt -o polycube.obj --stats stats.json"},
         {"stages",
          {"PART", "DIR"},
-         "Writes what each step of the method gives into the files 01-mesh.txt … 10-statistics.txt of a folder, to compare a\n"
-         "port with. golden/README.md explains them. All options are at their defaults.",
+         "Writes what each step of the method gives, to compare a port with.\n\n"
+         "The files are 01-mesh.txt … 10-statistics.txt, which golden/README.md explains. All options are at their defaults.",
          {},
-         run_stages},
+         run_stages,
+         kDoneStatus,
+         kPartFile + "\nDIR     a folder that is there",
+         "polylab stages part.obj stages"},
     };
     return table;
 }
@@ -546,17 +582,21 @@ std::string overview() {
            "\nfirst steps:\n"
            "  polylab label part.obj -o labels.txt      label a part\n"
            "  polylab explain part.obj labels.txt       what is wrong with the result, if anything\n"
-           "  polylab label --help                      all options of a command\n\n"
+           "  polylab help label                        all about a command\n\n"
            "exit status: 0 done (and valid), 1 done but not valid, or interrupted (the best labels so far are written),\n"
-           "2 no result (wrong use, wrong input, output can't be written)\n";
+           "2 no result (wrong use, wrong input, output can't be written)\n\n"
+           "the published commands, where the program is called by their names (PREFIX/libexec/polylab has links):\n" +
+           dropin_overview();
 }
 
 int run(const std::vector<std::string>& words) {
-    const std::string first = words.empty() ? "" : words[0];
-    if (first == "--help" || first == "-h" || first == "help") {
+    std::string first = words.empty() ? "" : words[0];
+    bool wants_help = first == "--help" || first == "-h" || first == "help";
+    if (wants_help && words.size() < 2) {
         write_file("-", overview());
         return kDone;
     }
+    if (wants_help) first = words[1];
     if (first == "--version") {
         write_file("-",
                    program_name() + "\nthe same labels on Linux x86-64 and aarch64, built by g++ 12 or clang 14 and later\n");
@@ -565,9 +605,10 @@ int run(const std::vector<std::string>& words) {
     for (const Command& command : commands()) {
         if (command.name != first) continue;
         const std::vector<std::string> rest(words.begin() + 1, words.end());
-        for (const std::string& word : rest) {
-            if (word == "--") break;
-            if (word != "--help" && word != "-h") continue;
+        const auto end = std::find(rest.begin(), rest.end(), "--");
+        wants_help = wants_help || std::find_if(rest.begin(), end,
+                                                [](const std::string& word) { return word == "--help" || word == "-h"; }) != end;
+        if (wants_help) {
             write_file("-", help("polylab", command));
             return kDone;
         }

@@ -214,6 +214,12 @@ std::string filled(std::string_view page, const std::vector<std::pair<const char
 
 }   // namespace
 
+std::string title_of(const std::string& path) {
+    std::size_t at = path.find_last_of("/\\");
+    if (at != std::string::npos && at > 0) at = path.find_last_of("/\\", at - 1);
+    return at == std::string::npos ? path : path.substr(at + 1);
+}
+
 std::string base64(const std::vector<unsigned char>& bytes) {
     constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string out;

@@ -1,7 +1,7 @@
 R"js(// The report's 3-D view and panel. Input: the JSON in #data (written by report.cpp). No library, no network.
 //
 // All geometry is fetched by number: positions, triangles and labels lie in textures, the vertex shaders pick from them by
-// gl_VertexID or gl_InstanceID. So a labeling is switched by one texture, and the morph to the polycube is one uniform.
+// gl_VertexID. So a labeling is switched by one texture, and the morph to the polycube is one uniform.
 'use strict';
 const data = JSON.parse(document.getElementById('data').textContent);
 const element = id => document.getElementById(id);
@@ -122,6 +122,7 @@ vec4 project(vec3 p) { vec3 q = turn * (p - at); return vec4(q.xy * zoom, -0.24 
 
 const FACET_VERTEX = COMMON + `
 uniform usampler2D triangles, facets;    // of a facet: label, + 8 if its chart is invalid
+uniform int mode;
 flat out vec3 normal;
 flat out uint code, number;
 flat out float fidelity;
@@ -134,10 +135,13 @@ void main() {
   normal = turn * normal_of(p[0], p[1], p[2]);
   number = uint(f + 1);
   code = texelFetch(facets, cell(f), 0).r;
-  vec3 n = normal_of(texelFetch(points, cell(v[0]), 0).xyz, texelFetch(points, cell(v[1]), 0).xyz,
-                     texelFetch(points, cell(v[2]), 0).xyz);
-  int label = int(code & 7u);
-  fidelity = (n[label / 2] * (label % 2 == 0 ? 1.0 : -1.0) + 1.0) / 2.0;
+  fidelity = 0.0;
+  if (mode == 1) {
+    vec3 n = normal_of(texelFetch(points, cell(v[0]), 0).xyz, texelFetch(points, cell(v[1]), 0).xyz,
+                       texelFetch(points, cell(v[2]), 0).xyz);
+    int label = int(code & 7u);
+    fidelity = (n[label / 2] * (label % 2 == 0 ? 1.0 : -1.0) + 1.0) / 2.0;
+  }
   gl_Position = project(p[gl_VertexID % 3]);
 }`;
 const FACET_FRAGMENT = `#version 300 es
@@ -169,7 +173,8 @@ void main() {
   colour = vec4(base * (0.6 + 0.4 * abs(normal.z)), 1);
 }`;
 
-// An edge or a vertex is a rectangle in the plane of the screen, drawn once per instance.
+// An edge or a vertex is a rectangle in the plane of the screen: two triangles. (As instances of four vertices they would take
+// several times as long.)
 const MARK_VERTEX = COMMON + `
 uniform usampler2D elements;
 uniform int per_element;                 // vertices: 2 an edge, 1 a point
@@ -178,8 +183,9 @@ uniform float width, lift;
 out vec2 local;                          // pixels from the axis, or from the centre
 out float along;                         // pixels along the edge
 void main() {
-  vec2 side = vec2(gl_VertexID % 2, gl_VertexID / 2) * 2.0 - 1.0;
-  int i = gl_InstanceID * per_element;
+  int k = gl_VertexID % 6 < 3 ? gl_VertexID % 6 : gl_VertexID % 6 - 2;     // of its four corners: 0 1 2, 1 2 3
+  vec2 side = vec2(k % 2, k / 2) * 2.0 - 1.0;
+  int i = gl_VertexID / 6 * per_element;
   vec4 a = project(place(int(texelFetch(elements, cell(i), 0).r)));
   float half_width = width / 2.0 + 1.0;
   along = 0.0;
@@ -325,7 +331,7 @@ function draw_group(group, rank) {
   for (const through of group.xray ? [true, false] : [false]) {
     (through ? gl.disable : gl.enable).call(gl, gl.DEPTH_TEST);
     gl.uniform1f(uniforms.alpha, through ? 0.4 : 1);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, group.count);
+    gl.drawArrays(gl.TRIANGLES, 0, 6 * group.count);
   }
 }
 

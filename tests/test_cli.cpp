@@ -32,11 +32,12 @@ MeshData two_tets() {
 }
 
 Command sample() {
-    return {"sample",
-            {"IN", "OUT"},
-            "Does it.",
-            {{"-o", "FILE", "where to"}, {"--size", "N", "how\nlarge"}, {"--fast", "", "soon"}},
-            nullptr};
+    Command command;
+    command.name = "sample";
+    command.operands = {"IN", "OUT"};
+    command.about = "Does it.\n\nSlowly.\n\nAnd well.";
+    command.options = {{"-o", "FILE", "where to"}, {"--size", "N", "how\nlarge"}, {"--fast", "", "soon"}};
+    return command;
 }
 
 std::string refusal(const std::function<void()>& action) {
@@ -112,16 +113,32 @@ TEST_CASE("cli: numbers within their range") {
 }
 
 TEST_CASE("cli: help is made of the table") {
-    CHECK(help("prog", sample()) ==
-          "usage: prog sample IN OUT [options]\n"
-          "\n"
-          "Does it.\n"
-          "\n"
-          "options:\n"
-          "  -o FILE   where to\n"
-          "  --size N  how\n"
-          "            large\n"
-          "  --fast    soon\n");
+    Command command = sample();
+    const std::string page =
+        "NAME\n"
+        "    prog sample: Does it.\n"
+        "\n"
+        "SYNOPSIS\n"
+        "    prog sample IN OUT [options]\n"
+        "\n"
+        "DESCRIPTION\n"
+        "    Slowly.\n"
+        "\n"
+        "    And well.\n"
+        "\n"
+        "OPTIONS\n"
+        "    -o FILE   where to\n"
+        "    --size N  how\n"
+        "              large\n"
+        "    --fast    soon\n";
+    CHECK(help("prog", command) == page);
+    command.status = "0 done\n2 not";
+    command.examples = "prog sample a b";
+    CHECK(help("prog", command) == page + "\nEXIT STATUS\n    0 done\n    2 not\n\nEXAMPLES\n    prog sample a b\n");
+    command.options.clear();
+    command.about = "Does it.";
+    CHECK(help("prog", command).find("NAME\n    prog sample: Does it.\n\nSYNOPSIS\n    prog sample IN OUT\n\nEXIT STATUS\n") ==
+          0);
 }
 
 // ---- help and wrong use ----
@@ -134,15 +151,18 @@ TEST_CASE("cli: help and version go to standard output") {
     for (const std::string& command : kCommands) {
         CHECK(overview.find("\n  " + command + " ") != std::string::npos);
         const std::string text = check_done(scratch, command + " --help").out;
-        CHECK(text.find("usage: polylab " + command + " ") == 0);
-        CHECK(text.find("\n  -o FILE ") != std::string::npos);
+        CHECK(text.find("NAME\n    polylab " + command + ": ") == 0);
+        for (const char* title : {"SYNOPSIS", "OPTIONS", "EXIT STATUS", "FILES", "EXAMPLES"})
+            CHECK(text.find(std::string("\n\n") + title + "\n    ") != std::string::npos);
+        CHECK(check_done(scratch, "help " + command).out == text);
+        CHECK(text.find("\n    -o FILE ") != std::string::npos);
         CHECK(check_done(scratch, command + " x --nonsense -h").out == text);   // help wins
     }
     const std::string label = check_done(scratch, "label --help").out;
     for (const char* option :
          {"--init LABELS", "--lock LABELS", "--method METHOD", "--routine NAME", "--trace FILE", "--stats JSON",
           "--compactness N", "--fidelity N", "--sensitivity X", "--angle RAD", "--features SOURCE", "--quiet", "--verbose"})
-        CHECK(label.find("\n  " + std::string(option) + " ") != std::string::npos);
+        CHECK(label.find("\n    " + std::string(option) + " ") != std::string::npos);
     CHECK(check_done(scratch, "--version").out.find(std::string("polylab ") + kVersion + " ") == 0);
     CHECK(scratch.entries() == 2);
 }
@@ -151,6 +171,7 @@ TEST_CASE("cli: wrong use") {
     const Scratch scratch;
     check_refused(scratch, "", "missing command");
     check_refused(scratch, "lable cube.obj", "unknown command 'lable' (see polylab --help)");
+    check_refused(scratch, "help lable", "unknown command 'lable' (see polylab --help)");
     check_refused(scratch, "label", "polylab label: missing PART (see polylab label --help)");
     check_refused(scratch, "label -o l.txt", "missing PART");
     check_refused(scratch, "label cube.obj cube.obj -o l.txt", "unexpected 'cube.obj'");

@@ -69,7 +69,7 @@ TEST_CASE("exports: .vtk holds the surface and four values per facet") {
     const std::string lookup = "\nLOOKUP_TABLE default\n";
     CHECK(text.substr(data) == head + labels_text(kCube) + "SCALARS chart int 1" + lookup +
                                    labels_text(kCube) /* a chart per side */ + "SCALARS fidelity double 1" + lookup +
-                                   "1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\nNORMALS normal double\n" +
+                                   "1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\nVECTORS normal double\n" +
                                    "1 0 0\n1 0 0\n-1 0 0\n-1 0 0\n0 1 0\n0 1 0\n0 -1 0\n0 -1 0\n0 0 1\n0 0 1\n0 0 -1\n0 0 -1\n");
 }
 

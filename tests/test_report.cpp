@@ -89,6 +89,14 @@ std::map<std::string, std::string> chunks_of(const std::string& png) {
 
 }   // namespace
 
+TEST_CASE("report: a part is called by its file and folder") {
+    CHECK(title_of("cube.obj") == "cube.obj");
+    CHECK(title_of("/cube.obj") == "cube.obj");
+    CHECK(title_of("B1/surface.obj") == "B1/surface.obj");
+    CHECK(title_of("/parts/MAMBO/B1/surface.obj") == "B1/surface.obj");
+    CHECK(title_of("parts\\B1\\surface.obj") == "B1\\surface.obj");
+}
+
 TEST_CASE("base64 gives the RFC's examples") {
     CHECK(base64_of("") == "");
     CHECK(base64_of("f") == "Zg==");

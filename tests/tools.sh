@@ -35,7 +35,7 @@ if command -v gmsh >/dev/null; then
     triangles=$(sed -n '1s/ triangles//p' "$folder/surface_map.txt") tets=$(sed -n '2s/ tetrahedra//p' "$folder/surface_map.txt")
     check "cad2labels: a label per triangle" lines "$folder/surface_labeling.txt" "$triangles"
     check "cad2labels: four per tetrahedron" lines "$folder/volume_labeling.txt" $((4 * tets))
-    check "cad2labels: a report" grep -q '<title>surface.obj' "$folder/report.html"
+    check "cad2labels: a report" grep -q '<title>gear 1.labeled/surface.obj' "$folder/report.html"
     check "cad2labels: a broken file" sh -c "! '$here/tools/cad2labels' '$cad/broken.step' && ! test -e '$cad/broken.labeled/tet.mesh'"
     rm -rf "$folder" "$cad/broken.labeled"
 else

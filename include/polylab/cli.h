@@ -31,7 +31,11 @@ struct Command {
     std::vector<std::string> operands;
     std::string about;   // one sentence, then details
     std::vector<Option> options;
-    int (*run)(const Arguments&);   // returns the exit status
+    int (*run)(const Arguments&) = nullptr;   // returns the exit status
+    // Lines of the help.
+    std::string status;     // what each exit status means
+    std::string files;      // what the operands hold
+    std::string examples;   // command lines
 };
 
 // Wrong use of the command line: the message, to be followed by where the help is.
@@ -43,6 +47,7 @@ public:
 // `-o X`, `--name X`, `--name=X`; a lone `-` is an operand; `--` ends the options. Throws UsageError.
 Arguments parse_arguments(const Command& command, const std::vector<std::string>& words);
 
+// The page of a command, as `man` lays one out: sections that are empty are left out.
 std::string help(const std::string& program, const Command& command);
 
 }   // namespace polylab

@@ -31,6 +31,9 @@ struct Report {
 // The page. Same report, same bytes. O(n) per layer
 std::string report_html(const TriMesh& mesh, const Report& report);
 
+// What to call the page of a part: its file with the folder it lies in, as many files are called the same.
+std::string title_of(const std::string& path);
+
 // `bytes` in base64, with padding (RFC 4648).
 std::string base64(const std::vector<unsigned char>& bytes);
 
