@@ -154,12 +154,12 @@ void turn_facets(TriMesh& mesh, const std::vector<char>& turn) {
 void measure(TriMesh& mesh) {
     const Index n = static_cast<Index>(mesh.origin.size() / 3);
     mesh.normal.resize(n);
+    double sum = 0;
     for (Index f = 0; f < n; f++) {
         mesh.normal[f] = unit(mesh.area_vector(f));
         if (mesh.normal[f] == Vec3{}) mesh.flat_facets++;
+        for (Index h = 3 * f; h < 3 * f + 3; h++) sum += norm(mesh.vector(h));
     }
-    double sum = 0;
-    for (Index h = 0; h < mesh.halfedges(); h++) sum += norm(mesh.vector(h));
     mesh.mean_edge = sum / mesh.halfedges();
 }
 
@@ -188,14 +188,13 @@ void keep_sharp_features(TriMesh& mesh, const FeatureOptions& options) {
     if (options.detect) mesh.features_given = mesh.features_off = 0;   // the file's list is not asked
     for (Index h = 0; h < mesh.halfedges(); h++) {
         const Index o = mesh.opposite[h];
-        if (h > o) continue;
+        if (h > o || !(options.detect || mesh.feature[h])) continue;
         const Vec3 &a = mesh.normal[facet(h)], &b = mesh.normal[facet(o)];
         const bool flat = a == Vec3{} || b == Vec3{};
-        if (!flat && (options.detect || mesh.feature[h])) audit("feature angle", std::abs(dot(a, b) - options.cosine));
+        if (!flat) audit("feature angle", std::abs(dot(a, b) - options.cosine));
         const bool sharp = !flat && dot(a, b) <= options.cosine;   // tie: an angle of exactly the threshold is sharp
-        const bool kept = sharp && (options.detect || mesh.feature[h]);
-        mesh.feature[h] = mesh.feature[o] = kept;
-        mesh.features_kept += kept;
+        mesh.feature[h] = mesh.feature[o] = sharp;
+        mesh.features_kept += sharp;
     }
 }
 
