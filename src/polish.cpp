@@ -87,6 +87,8 @@ public:
 
     // In rounds: what one round has changed is where the next one looks.
     State run(Labeling before) {
+        for (Index h = 0; h < mesh_.halfedges(); h++)
+            if (is_lost(h)) relabel_face(mesh_.left(h));
         while (note_changes(before) && !over()) {
             before = state_.labels;
             for (Index b = 0; b < static_cast<Index>(state_.graph.boundaries.size()); b++)
@@ -94,6 +96,8 @@ public:
             turned_.clear(mesh_.facets());
             for (Index f = 0; f < mesh_.facets(); f++)
                 if (near_.has(f) && points_away(f) && !turned_.has(f)) turn(f);
+            for (Index h = 0; h < mesh_.halfedges(); h++)
+                if (is_lost(h) && near_.has(mesh_.left(h))) relabel_face(mesh_.left(h));
         }
         return std::move(state_);
     }
@@ -121,6 +125,7 @@ private:
         }
         return false;
     }
+    bool is_lost(Index h) const { return mesh_.feature[h] && !state_.graph.is_border(h); }
     bool points_away(Index f) const { return along(mesh_.normal[f], state_.labels[f]) < kAway; }
 
     // The facets and `rings` times those that touch them, in the order in which they are met.
@@ -139,7 +144,7 @@ private:
         return facets;
     }
 
-    // ---- the two operations
+    // ---- the operations
 
     void redraw_boundary(Index b) {
         std::vector<Index> beside;
@@ -194,6 +199,42 @@ private:
             }
         }
         if (!best.empty()) attempt(best, step);
+        finish(step);
+    }
+
+    // The face of f, beside a lost feature edge: the facets of its chart up to feature edges. It takes the label that wins most,
+    // if that makes no new chart, turns no facet away, and wins feature edges worth twice the fidelity that it costs.
+    void relabel_face(Index f) {
+        const Label old = state_.labels[f];
+        std::vector<Index> face = {f};
+        in_.clear(mesh_.facets());
+        in_.insert(f);
+        for (std::size_t i = 0; i < face.size(); i++)
+            for (Index h = 3 * face[i]; h < 3 * face[i] + 3; h++)
+                if (!mesh_.feature[h] && !state_.graph.is_border(h) && in_.insert(mesh_.right(h))) face.push_back(mesh_.right(h));
+        Step step{"relabel-face", f, false, false, 0, 0, state_.score, state_.score};
+        if (over() || !tried_.insert(fingerprint(relabel(face, old))).second) return;
+        Label best = old;
+        for (Label l = 0; l < kLabels; l++) {
+            if (l == old || std::any_of(face.begin(), face.end(), [&](Index g) { return along(mesh_.normal[g], l) < kAway; }))
+                continue;
+            step.proposals++;
+            proposals_tried_++;
+            const Score score = judge_.score(state_, relabel(face, l));
+            if (!(score < step.after) || judge_.added_charts() > 0) continue;
+            std::int64_t cost = 0;
+            for (const Index g : face) cost += judge_.loss(g, l) - judge_.loss(g, old);
+            if (score.invalid == step.before.invalid && score.turning_points == step.before.turning_points &&
+                step.before.loss - score.loss < cost)
+                continue;
+            best = l;
+            step.after = score;
+        }
+        if (best != old) {
+            judge_.apply(state_, relabel(face, best));
+            step.kept = true;
+            step.facets = static_cast<Index>(face.size());
+        }
         finish(step);
     }
 

@@ -3,6 +3,7 @@
 #include "polylab/initial_labeling.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace polylab {
 
@@ -17,6 +18,16 @@ Index most_before_start(const TriMesh& mesh) { return std::max(20000, 20 * std::
 State from_start(const TriMesh& mesh, const Labeling& start, const RoutineOptions& options, int effort) {
     State state = run_routines(mesh, start, options);
     return effort == 0 ? state : polish(mesh, start, std::move(state), options);
+}
+
+// The score, with turning-points by the published count too, which depends on directions and decides a result's class.
+std::tuple<Index, Index, Index, std::int64_t> standing(const TriMesh& mesh, const State& s) {
+    return {s.score.invalid, s.score.turning_points, published_turning_points(mesh, s.graph).vertices, s.score.loss};
+}
+
+bool is_good(const TriMesh& mesh, const State& s) {
+    const auto [invalid, turning_points, published, loss] = standing(mesh, s);
+    return invalid == 0 && turning_points == 0 && published == 0;
 }
 
 }   // namespace
@@ -35,12 +46,12 @@ State search(const TriMesh& mesh, const Labeling& start, const RoutineOptions& o
     };
     State best = from_start(mesh, start, first, effort);
     for (const int compactness : kStartCompactness) {
-        const bool done = (best.score.invalid == 0 && best.score.turning_points == 0) || tried >= most_before_start(mesh);
-        if (effort < 2 || (effort == 2 && done) || (options.stop && options.stop())) break;
+        if (effort < 2 || (options.stop && options.stop())) break;
+        if (effort == 2 && (tried >= most_before_start(mesh) || is_good(mesh, best))) break;
         InitialOptions initial;
         initial.compactness = compactness;
         State other = from_start(mesh, graphcut_labeling(mesh, initial, options.locks, options.stop), inner, effort);
-        Step step{"start-again", compactness, false, other.score < best.score, 1, 0, best.score, other.score};
+        Step step{"start-again", compactness, false, standing(mesh, other) < standing(mesh, best), 1, 0, best.score, other.score};
         for (Index f = 0; f < mesh.facets(); f++) step.facets += other.labels[f] != best.labels[f];
         if (options.trace) options.trace(step);
         if (step.kept) best = std::move(other);

@@ -55,6 +55,16 @@ TEST_CASE("polish: redraw gives a facet back to the chart that it belongs to, an
     CHECK(Redraw(mesh)(Judge(mesh).state(naive), {1, 2, 3}, 1).empty());
 }
 
+TEST_CASE("polish: the face beside a lost feature edge takes another label, also where nothing was repaired") {
+    const TriMesh mesh = golden_part("v_groove_blind");
+    const Labeling start = graphcut_labeling(mesh);
+    const State before = run_routines(mesh, start), after = polish(mesh, before.labels, before);
+    CHECK(statistics(mesh, before.labels, before.graph).features_lost > 0);
+    CHECK(statistics(mesh, after.labels, after.graph).features_lost == 0);
+    CHECK(after.score < before.score);
+    CHECK(after.graph.charts.size() <= before.graph.charts.size());
+}
+
 TEST_CASE("polish: a border that left its edge comes back") {
     const TriMesh mesh = build_mesh(cube(4));
     const Labeling naive = naive_labeling(mesh), low = with_low_border(mesh, 2.9);

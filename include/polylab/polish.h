@@ -26,8 +26,9 @@ private:
     std::map<int, std::vector<std::int16_t>> pairwise_;   // compactness -> half-edge -> cost, kNone where not asked for yet
 };
 
-// `state` with the borders near the facets that differ from `start` redrawn, and facets turned that point away from their
-// label, as long as that improves the score and makes no new chart. Bounded as run_routines() is. Never worse than `state`.
+// `state` with better labels for faces beside lost feature edges, the borders near the facets that differ from `start` redrawn,
+// and facets turned that point away from their label, as long as that improves the score and makes no new chart.
+// Bounded as run_routines() is. Never worse than `state`.
 State polish(const TriMesh& mesh, const Labeling& start, State state, const RoutineOptions& options = {});
 
 }   // namespace polylab

@@ -11,11 +11,13 @@ namespace polylab {
 inline constexpr int kDefaultEffort = 2;
 inline constexpr int kMostEffort = 3;
 
-// effort 0: the paper's routines alone. 1: polish where they have changed something. 2: if something is invalid or turns, the
-// same from graph-cuts of compactness 2, 3, 4, 6 and 10, until nothing is or 20000 proposals (20 per facet, if that is more)
-// have been tried: then the part itself is to blame. 3: from all of these in any case.
-// The result is the one of the best score.   tie: the first start. Up to six times the bound of the routines and of polish.
-// In the trace, the steps of other starts count as parts of a sequence, which ends with a step "start-again COMPACTNESS".
+// effort 0: the paper's routines alone. 1: polish where they have changed something or a feature edge is lost. 2: if something
+// is invalid or turns, by our count or the published one, the same from graph-cuts of compactness 2, 3, 4, 6 and 10, until
+// nothing is or 20000 proposals (20 per facet, if that is more) have been tried: then the part itself is to blame. 3: from all
+// of these in any case.
+// The result is the one of the best score, where the published turning-points stand before the loss.   tie: the first start. Up
+// to six times the bound of the routines and of polish. In the trace, the steps of other starts count as parts of a sequence,
+// which ends with a step "start-again COMPACTNESS".
 State search(const TriMesh& mesh, const Labeling& start, const RoutineOptions& options = {}, int effort = kDefaultEffort);
 
 }   // namespace polylab

@@ -51,9 +51,9 @@ public:
     Index added_charts() const { return effect_.charts; }
     // Makes `state` that of its labels with the patch applied. At the price of update_graph()
     void apply(State& state, const Patch& patch);
+    std::int64_t loss(Index f, Label l) const;   // kLossUnit (1 - fidelity)
 
 private:
-    std::int64_t loss(Index f, Label l) const;   // kLossUnit (1 - fidelity)
     Index invalid(Index elements, Index charts) const;
     bool free(Index f) const { return locks_.empty() || locks_[f] == kNoLabel; }
 
