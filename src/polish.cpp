@@ -87,6 +87,7 @@ public:
 
     // In rounds: what one round has changed is where the next one looks.
     State run(Labeling before) {
+        face_tried_.clear(mesh_.facets());
         for (Index h = 0; h < mesh_.halfedges(); h++)
             if (is_lost(h)) relabel_face(mesh_.left(h));
         while (note_changes(before) && !over()) {
@@ -96,6 +97,7 @@ public:
             turned_.clear(mesh_.facets());
             for (Index f = 0; f < mesh_.facets(); f++)
                 if (near_.has(f) && points_away(f) && !turned_.has(f)) turn(f);
+            face_tried_.clear(mesh_.facets());
             for (Index h = 0; h < mesh_.halfedges(); h++)
                 if (is_lost(h) && near_.has(mesh_.left(h))) relabel_face(mesh_.left(h));
         }
@@ -205,6 +207,7 @@ private:
     // The face of f, beside a lost feature edge: the facets of its chart up to feature edges. It takes the label that wins most,
     // if that makes no new chart, turns no facet away, and wins feature edges worth twice the fidelity that it costs.
     void relabel_face(Index f) {
+        if (face_tried_.has(f)) return;
         const Label old = state_.labels[f];
         std::vector<Index> face = {f};
         in_.clear(mesh_.facets());
@@ -212,6 +215,7 @@ private:
         for (std::size_t i = 0; i < face.size(); i++)
             for (Index h = 3 * face[i]; h < 3 * face[i] + 3; h++)
                 if (!mesh_.feature[h] && !state_.graph.is_border(h) && in_.insert(mesh_.right(h))) face.push_back(mesh_.right(h));
+        for (const Index g : face) face_tried_.insert(g);
         Step step{"relabel-face", f, false, false, 0, 0, state_.score, state_.score};
         if (over() || !tried_.insert(fingerprint(relabel(face, old))).second) return;
         Label best = old;
@@ -232,6 +236,7 @@ private:
         }
         if (best != old) {
             judge_.apply(state_, relabel(face, best));
+            face_tried_.clear(mesh_.facets());
             step.kept = true;
             step.facets = static_cast<Index>(face.size());
         }
@@ -275,6 +280,7 @@ private:
     Index proposals_tried_ = 0;
     std::set<std::uint64_t> tried_;
     Marks near_, in_, turned_;
+    Marks face_tried_;   // the faces tried since something has changed
 };
 
 }   // namespace
