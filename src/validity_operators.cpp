@@ -117,6 +117,51 @@ void propose(Proposals& proposals, const std::vector<Index>& facets, Label label
     if (!facets.empty()) proposals.push_back(relabel(facets, label));
 }
 
+// How a boundary faces, across the axis, as seen from each facet of a band along it (ordered by ring): carried outward from its
+// edges, vertex by vertex, and bent to the facet's own normal.
+std::vector<Vec3> facing(const TriMesh& mesh, const Halfedges& path, const std::vector<Index>& facets, int axis) {
+    IndexSet known;
+    std::vector<Vec3> at;   // by number of a known vertex
+    const auto add = [&](Index v, const Vec3& d) {
+        if (known.insert(v)) at.emplace_back();
+        at[known.number(v)] += d;
+    };
+    for (const Index h : path) {
+        Vec3 d = mesh.area_vector(mesh.left(h)) + mesh.area_vector(mesh.right(h));
+        d[axis] = 0;
+        add(mesh.from(h), d);
+        add(mesh.to(h), d);
+    }
+    std::vector<Vec3> result;
+    for (const Index f : facets) {
+        Vec3 sum = mesh.normal[f];
+        sum[axis] = 0;
+        for (Index h = 3 * f; h < 3 * f + 3; h++)
+            if (known.has(mesh.from(h))) sum += unit(at[known.number(mesh.from(h))]);
+        result.push_back(unit(sum));
+        for (Index h = 3 * f; h < 3 * f + 3; h++)
+            if (!known.has(mesh.from(h))) add(mesh.from(h), sum);
+    }
+    return result;
+}
+
+// New charts along a rim that turns, where no label fits all of it: each facet of the band takes a label across the axis of the
+// two charts, by the graph-cut of Section 5 on the directions in which the rim faces.
+void charts_along_rim(Proposals& proposals, const TriMesh& mesh, const State& state, const Halfedges& path,
+                      const std::vector<Index>& facets, int rim_axis) {
+    const IndexSet sites(facets);
+    const std::vector<Vec3> directions = facing(mesh, path, facets, rim_axis);
+    const PottsEnergy energy = local_energy(
+        mesh, state.labels, facets,
+        [&](Index f, Label l) { return axis(l) == rim_axis ? kForbidden : data_cost(directions[sites.number(f)], l, 3); },
+        [&](Index h) { return pairwise_cost(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)], 1); });
+    const Labeling labels = alpha_expansion(energy, Labeling(facets.size(), rim_axis == 0 ? 2 : 0));
+    Patch patch;
+    for (std::size_t i = 0; i < facets.size(); i++) patch.push_back({facets[i], labels[i]});
+    const bool turns = std::any_of(labels.begin(), labels.end(), [&](Label l) { return l != labels[0]; });
+    if (turns) proposals.push_back(std::move(patch));
+}
+
 // A new chart that covers the vertex.
 void chart_around(Proposals& proposals, const TriMesh& mesh, const State& state, Index vertex) {
     for (const int width : kCornerWidths) {
@@ -234,6 +279,9 @@ Proposals opposite_boundary(const TriMesh& mesh, const State& state, Index bound
             if (!orthogonal(l, state.graph.charts[b.left].label) || !orthogonal(l, state.graph.charts[b.right].label)) continue;
             for (const auto* facets : {&left, &right, &both}) propose(proposals, *facets, l);
         }
+        if (axis(state.graph.charts[b.left].label) == axis(state.graph.charts[b.right].label))
+            for (const auto* facets : {&left, &right, &both})
+                charts_along_rim(proposals, mesh, state, path, *facets, axis(state.graph.charts[b.left].label));
     }
     return proposals;
 }

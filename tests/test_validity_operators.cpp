@@ -525,6 +525,28 @@ TEST_CASE("validity operators: labels along a boundary come best first, orthogon
     CHECK(labels_of(opposite_boundary(both.mesh, both.state, 0).at(0)) == std::set<Label>{kX});
 }
 
+TEST_CASE("validity operators: a rim that turns gets charts around it") {
+    // A cube whose upper half is one chart, and its lower half another: a rim runs round, at z = 2.
+    Shape shape = by_normals(cube(4));
+    const Labeling sides = shape.labels;
+    const Scene upright(shape);
+    for (std::size_t f = 0; f < shape.labels.size(); f++)
+        shape.labels[f] = upright.middle(static_cast<Index>(f)).z > 2 ? kZ : kNegZ;
+    const Scene scene(shape);
+    const Index rim = scene.boundary_between(kZ, kNegZ);
+    int whole = 0;
+    for (const Patch& patch : opposite_boundary(scene.mesh, scene.state, rim)) {
+        if (labels_of(patch).size() == 1) continue;
+        CHECK(labels_of(patch) == std::set<Label>{kX, kNegX, kY, kNegY});
+        const Facets facets = facets_of(patch);
+        if (facets != scene.where([&](Index f) { return std::abs(scene.middle(f).z - 2) < 1; })) continue;
+        whole++;   // one row of squares on both sides
+        for (const Relabel& r : patch) CHECK(r.label == sides[r.facet]);
+        CHECK(solved(scene.after(patch)));
+    }
+    CHECK(whole == 1);
+}
+
 // ---- corners
 
 TEST_CASE("validity operators: a chart around the apex of a pyramid") {

@@ -24,7 +24,8 @@ Proposals remove_surrounded_chart(const TriMesh& mesh, const State& state, Index
 Proposals increase_chart_valence(const TriMesh& mesh, const State& state, Index chart);
 
 // Section 6.3.1, opposite boundaries (Figure 11): a new chart along an invalid boundary, orthogonal to both its sides.
-// Variants: four labels, best first; left, right or both sides; width 1, 2 or 5 rings of facets.
+// Variants: four labels, best first; left, right or both sides; width 1, 2 or 5 rings of facets. Where the boundary turns
+// round between two charts of one axis (the rim of a lens, say), also several charts in a row, each where its label fits.
 Proposals opposite_boundary(const TriMesh& mesh, const State& state, Index boundary);
 
 // Section 6.3.1, high valence corner: a new chart around an invalid corner, and one along each lost feature edge that
