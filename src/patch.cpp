@@ -4,27 +4,30 @@
 
 namespace polylab {
 
-Effect EffectFinder::effect(const Labeling& labels, const LabelingGraph& graph, const TurningPoints& turning,
-                            const Patch& patch) {
+Index EffectFinder::begin(const Labeling& labels, const LabelingGraph& graph, const TurningPoints& turning, const Patch& patch) {
     labels_ = &labels;
     graph_ = &graph;
     turning_ = &turning;
     effect_ = {};
     note_changes(patch);
+    count_features();
+    return effect_.lost_features;
+}
+
+Effect EffectFinder::finish() {
     if (changes_.empty()) return effect_;
     find_zone();
-    count_features();
     join_pieces();
     trace_boundaries();
     leave_old_boundaries();
     judge_charts();
     judge_corners();
-    for (const Relabel& r : changes_) new_label_[r.facet] = kNoLabel;
     return effect_;
 }
 
 void EffectFinder::note_changes(const Patch& patch) {
     new_label_.resize(mesh_.facets(), kNoLabel);
+    for (const Relabel& r : changes_) new_label_[r.facet] = kNoLabel;   // those of the last patch
     changes_.clear();
     for (const Relabel& r : patch) {
         if (new_label_[r.facet] == kNoLabel) changes_.push_back(r);

@@ -146,6 +146,9 @@ private:
         return facets;
     }
 
+    // Of what is to be better than this: where nothing is invalid and nothing turns, only the loss can become less.
+    static std::int64_t most_loss(const Score& s) { return s.invalid == 0 && s.turning_points == 0 ? s.loss - 1 : kAnyLoss; }
+
     // ---- the operations
 
     void redraw_boundary(Index b) {
@@ -191,7 +194,7 @@ private:
                 if (i > none) facets.push_back(around[i]);
                 if (k > none) facets.push_back(around[k]);
                 for (Label l = 0; l < kLabels; l++) {
-                    const Score score = judge_.score(state_, relabel(facets, l));
+                    const Score score = judge_.score(state_, relabel(facets, l), most_loss(best_score));
                     step.proposals++;
                     proposals_tried_++;
                     if (!(score < best_score)) continue;
@@ -224,7 +227,7 @@ private:
                 continue;
             step.proposals++;
             proposals_tried_++;
-            const Score score = judge_.score(state_, relabel(face, l));
+            const Score score = judge_.score(state_, relabel(face, l), most_loss(step.after));
             if (!(score < step.after) || judge_.added_charts() > 0) continue;
             std::int64_t cost = 0;
             for (const Index g : face) cost += judge_.loss(g, l) - judge_.loss(g, old);
@@ -248,7 +251,7 @@ private:
         if (over() || !tried_.insert(fingerprint(patch)).second) return false;
         step.proposals++;
         proposals_tried_++;
-        if (!(judge_.score(state_, patch) < state_.score) || judge_.added_charts() > 0) return false;
+        if (!(judge_.score(state_, patch, most_loss(state_.score)) < state_.score) || judge_.added_charts() > 0) return false;
         judge_.apply(state_, patch);
         step.kept = true;
         step.facets += static_cast<Index>(patch.size());

@@ -3,6 +3,7 @@
 #include "polylab/text.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -16,6 +17,8 @@ struct ValidityOperator {
     const char* name;
     Kind kind;
     Proposals (*propose)(const TriMesh&, const State&, Index element);
+    // What each of the proposals costs, or more than that; quicker to find than they are. Null: unknown.
+    std::int64_t (*least_loss)(const Judge&, const State&, Index element) = nullptr;
 };
 
 // In the order of Algorithm 1: valence first, since what it repairs shows invalid boundaries and corners too; boundaries
@@ -26,8 +29,8 @@ constexpr ValidityOperator kValidityOperators[] = {
     {"opposite-boundary", Kind::boundary, opposite_boundary},
     {"high-valence-corner", Kind::corner, high_valence_corner},
     {"grow-chart", Kind::chart, grow_chart},
-    {"remove-chart", Kind::chart, remove_chart},
-    {"remove-charts-around-boundary", Kind::boundary, remove_charts_around_boundary},
+    {"remove-chart", Kind::chart, remove_chart, least_loss_of_removing_chart},
+    {"remove-charts-around-boundary", Kind::boundary, remove_charts_around_boundary, least_loss_of_removing_around},
 };
 
 struct QualityOperator {
@@ -105,23 +108,31 @@ private:
 
     // Tries all proposals. Of those that improve the score it keeps the one with the least loss, so that a small repair is
     // preferred to a sweeping one that repairs more.   tie: the first
-    bool once(const char* operation, Index element, const Proposals& proposals) {
+    // What is too costly is not judged. Puts what the cheapest of these costs into `least_loss`, or what is beyond the limit.
+    bool once(const char* operation, Index element, const Proposals& proposals, std::int64_t* least_loss = nullptr) {
         proposals_tried_ += static_cast<Index>(proposals.size());
-        if (proposals.empty() || stopped()) return false;
-        Step step{operation, element, in_sequence_, false, static_cast<Index>(proposals.size()), 0, state_.score, {}};
+        Step step{operation, element, in_sequence_, false, static_cast<Index>(proposals.size()), 0, state_.score, state_.score};
+        std::int64_t most_loss = state_.score.loss + loss_limit_, too_much = kAnyLoss;
         const Patch* best = nullptr;
         for (const Patch& patch : proposals) {
-            if (best && stopped()) break;
-            const Score score = judge_.score(state_, patch);
-            const bool better = improves(score, state_.score);
-            if (best && !(better ? !step.kept || score.loss < step.after.loss : !step.kept && score < step.after)) continue;
+            if (stopped()) break;
+            const Score score = judge_.score(state_, patch, most_loss);
+            if (score.loss > most_loss) {
+                too_much = std::min(too_much, score.loss - state_.score.loss);
+                continue;
+            }
+            const bool better = score < state_.score;
+            if (best && !better && !(score < step.after)) continue;
+            if (step.kept && !better) continue;
             best = &patch;
             step.kept = better;
             step.after = score;
+            if (better) most_loss = score.loss - 1;
         }
-        step.facets = static_cast<Index>(best->size());
+        if (least_loss) *least_loss = step.kept ? loss_limit_ + 1 : too_much;
+        if (best) step.facets = static_cast<Index>(best->size());
         if (step.kept) judge_.apply(state_, *best);
-        if (options_.trace) options_.trace(step);
+        if (options_.trace && step.proposals > 0) options_.trace(step);
         return step.kept;
     }
 
@@ -179,12 +190,12 @@ private:
         return charts;
     }
 
-    // Whether the operator has not been tried at this place in the same surroundings and under this limit; notes it.
-    // No place is left once the run is over.
-    bool untried(const char* operation, Index place, const std::vector<Index>& charts) {
-        if (over()) return false;
-        return tried_.insert({std::string(operation) + (in_sequence_ ? "/" : ""), place, surroundings(charts), loss_limit_})
-            .second;
+    // Where the operator was tried before at this place, in the same surroundings: what its proposals cost at least. Null if
+    // that is beyond the limit, or the run over.
+    std::int64_t* worth_trying(const char* operation, Index place, const std::vector<Index>& charts) {
+        if (over()) return nullptr;
+        std::int64_t& least_loss = least_loss_[{std::string(operation) + (in_sequence_ ? "/" : ""), place, surroundings(charts)}];
+        return least_loss <= loss_limit_ ? &least_loss : nullptr;
     }
 
     // The operator on one invalid element after the other, until a round keeps nothing. In a sequence only on elements
@@ -195,9 +206,11 @@ private:
             for (Index i = 0; i < count(state_, o.kind); i++) {
                 if (!invalid(state_, o.kind, i)) continue;
                 const Index place = name(state_, o.kind, i);
-                if (invalid_before_[static_cast<int>(o.kind)].count(place) > 0 || !untried(o.name, place, charts_at(o.kind, i)))
-                    continue;
-                kept = once(o.name, i, o.propose(mesh_, state_, i)) || kept;
+                if (invalid_before_[static_cast<int>(o.kind)].count(place) > 0) continue;
+                std::int64_t* least_loss = worth_trying(o.name, place, charts_at(o.kind, i));
+                if (least_loss && o.least_loss) *least_loss = o.least_loss(judge_, state_, i);
+                if (least_loss && *least_loss <= loss_limit_)
+                    kept = once(o.name, i, o.propose(mesh_, state_, i), least_loss) || kept;
             }
         }
     }
@@ -208,8 +221,8 @@ private:
             kept = false;
             for (std::size_t i = 0; i < state_.turning.points.size(); i++) {
                 const TurningPoint t = state_.turning.points[i];
-                if (untried(o.name, t.vertex, charts_at(Kind::boundary, t.boundary)))
-                    kept = once(o.name, t.vertex, o.propose(mesh_, state_, t)) || kept;
+                if (std::int64_t* least_loss = worth_trying(o.name, t.vertex, charts_at(Kind::boundary, t.boundary)))
+                    kept = once(o.name, t.vertex, o.propose(mesh_, state_, t), least_loss) || kept;
             }
         }
     }
@@ -218,8 +231,9 @@ private:
         for (bool kept = true; kept;) {
             kept = false;
             for (Index b = 0; b < count(state_, Kind::boundary); b++)
-                if (untried("straighten-boundary", name(state_, Kind::boundary, b), charts_at(Kind::boundary, b)))
-                    kept = once("straighten-boundary", b, straighten_boundary(mesh_, state_, b)) || kept;
+                if (std::int64_t* least_loss =
+                        worth_trying("straighten-boundary", name(state_, Kind::boundary, b), charts_at(Kind::boundary, b)))
+                    kept = once("straighten-boundary", b, straighten_boundary(mesh_, state_, b), least_loss) || kept;
         }
     }
 
@@ -229,7 +243,11 @@ private:
             std::vector<Index> charts;
             for (Index c = 0; c < count(state_, Kind::chart); c++)
                 if (!state_.graph.charts[c].valid && !surrounded_by_features(state_, c)) charts.push_back(c);
-            if (!once("remove-charts", kNone, remove_charts(mesh_, state_, charts))) break;
+            std::int64_t* least_loss = worth_trying("remove-charts", kNone, charts);
+            if (least_loss) *least_loss = least_loss_of_removal(judge_, state_, charts);
+            if (!least_loss || *least_loss > loss_limit_ ||
+                !once("remove-charts", kNone, remove_charts(mesh_, state_, charts), least_loss))
+                break;
         }
     }
 
@@ -281,7 +299,8 @@ private:
     std::int64_t loss_limit_ = 0;
     bool in_sequence_ = false;
     std::set<Index> invalid_before_[3];   // by kind, in a sequence: names of what was invalid at its start
-    std::set<std::tuple<std::string, Index, std::uint64_t, std::int64_t>> tried_;
+    // By operator, place and surroundings: see worth_trying().
+    std::map<std::tuple<std::string, Index, std::uint64_t>, std::int64_t> least_loss_;
 };
 
 }   // namespace

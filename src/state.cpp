@@ -42,17 +42,20 @@ State Judge::state(Labeling labels) const {
     return state;
 }
 
-Score Judge::score(const State& state, const Patch& patch) {
+Score Judge::score(const State& state, const Patch& patch, std::int64_t most_loss) {
     if (!locks_.empty()) {
         allowed_.clear();
         for (const Relabel& r : patch)
             if (free(r.facet)) allowed_.push_back(r);
     }
-    effect_ = effects_.effect(state.labels, state.graph, state.turning, locks_.empty() ? patch : allowed_);
-    Score score = {
-        invalid(state.graph.invalid() + effect_.invalid, static_cast<Index>(state.graph.charts.size()) + effect_.charts),
-        state.score.turning_points + effect_.turning_points, state.score.loss + loss_per_feature_ * effect_.lost_features};
+    const Index lost = effects_.begin(state.labels, state.graph, state.turning, locks_.empty() ? patch : allowed_);
+    Score score = {kUnknown, kUnknown, state.score.loss + loss_per_feature_ * lost};
     for (const Relabel& r : effects_.changes()) score.loss += loss(r.facet, r.label) - loss(r.facet, state.labels[r.facet]);
+    if (score.loss > most_loss) return score;
+    effect_ = effects_.finish();
+    score.invalid =
+        invalid(state.graph.invalid() + effect_.invalid, static_cast<Index>(state.graph.charts.size()) + effect_.charts);
+    score.turning_points = state.score.turning_points + effect_.turning_points;
     return score;
 }
 

@@ -151,8 +151,9 @@ void charts_along_rim(Proposals& proposals, const TriMesh& mesh, const State& st
                       const std::vector<Index>& facets, int rim_axis) {
     const IndexSet sites(facets);
     const std::vector<Vec3> directions = facing(mesh, path, facets, rim_axis);
-    const PottsEnergy energy = local_energy(
-        mesh, state.labels, facets,
+    PottsEnergy energy;
+    set_local_energy(
+        energy, mesh, state.labels, facets, sites,
         [&](Index f, Label l) { return axis(l) == rim_axis ? kForbidden : data_cost(directions[sites.number(f)], l, 3); },
         [&](Index h) { return pairwise_cost(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)], 1); });
     const Labeling labels = alpha_expansion(energy, Labeling(facets.size(), rim_axis == 0 ? 2 : 0));
@@ -196,6 +197,19 @@ void sides_give_way(Proposals& proposals, const TriMesh& mesh, const State& stat
 
 // ---- chart removal
 
+// Chart -> the labels that its facets may take when these charts are removed: those of the neighbours that stay.
+std::vector<std::array<char, kLabels>> allowed_labels(const LabelingGraph& graph, const std::vector<Index>& charts) {
+    std::vector<char> removed(graph.charts.size(), 0);
+    std::vector<std::array<char, kLabels>> allowed(graph.charts.size(), std::array<char, kLabels>{});
+    for (const Index c : charts) removed[c] = 1;
+    for (const Index c : charts)
+        for (Index i = graph.charts[c].boundaries.first; i < graph.charts[c].boundaries.last; i++) {
+            const Index other = graph.neighbour(graph.chart_boundaries[i], c);
+            if (!removed[other]) allowed[c][graph.charts[other].label] = 1;
+        }
+    return allowed;
+}
+
 struct Cut {
     PottsEnergy energy;
     std::vector<Index> facets;   // site -> facet
@@ -203,16 +217,9 @@ struct Cut {
 
 Cut removal_cut(const TriMesh& mesh, const State& state, const std::vector<Index>& charts, int compactness) {
     Cut cut;
-    std::vector<char> removed(state.graph.charts.size(), 0);
-    std::vector<std::array<char, kLabels>> allowed(state.graph.charts.size(), std::array<char, kLabels>{});
-    for (const Index c : charts) removed[c] = 1;
-    for (const Index c : charts)
-        for (Index i = state.graph.charts[c].boundaries.first; i < state.graph.charts[c].boundaries.last; i++) {
-            const Index other = state.graph.neighbour(state.graph.chart_boundaries[i], c);
-            if (!removed[other]) allowed[c][state.graph.charts[other].label] = 1;
-        }
+    const std::vector<std::array<char, kLabels>> allowed = allowed_labels(state.graph, charts);
     for (const Index c : charts) {
-        const std::vector<Index> facets = facets_of(mesh, state, c);
+        const std::vector<Index> facets = facets_of(state, c);
         cut.facets.insert(cut.facets.end(), facets.begin(), facets.end());
     }
     std::sort(cut.facets.begin(), cut.facets.end());   // by number, all different
@@ -232,7 +239,7 @@ bool surrounded_by_features(const State& state, Index chart) {
     return r.size() > 0;
 }
 
-Proposals remove_surrounded_chart(const TriMesh& mesh, const State& state, Index chart) {
+Proposals remove_surrounded_chart(const TriMesh&, const State& state, Index chart) {
     const Range r = state.graph.charts[chart].boundaries;
     Label around = kNoLabel;
     for (Index i = r.first; i < r.last; i++) {
@@ -242,7 +249,7 @@ Proposals remove_surrounded_chart(const TriMesh& mesh, const State& state, Index
         around = label;
     }
     if (around == kNoLabel) return {};
-    return {relabel(facets_of(mesh, state, chart), around)};
+    return {relabel(facets_of(state, chart), around)};
 }
 
 Proposals increase_chart_valence(const TriMesh& mesh, const State& state, Index chart) {
@@ -314,6 +321,38 @@ Proposals remove_charts(const TriMesh& mesh, const State& state, const std::vect
             proposals.push_back(std::move(patch));
     }
     return proposals;
+}
+
+std::int64_t least_loss_of_removal(const Judge& judge, const State& state, const std::vector<Index>& charts) {
+    const TriMesh& mesh = judge.mesh();
+    const std::vector<std::array<char, kLabels>> allowed = allowed_labels(state.graph, charts);
+    std::int64_t loss = 0;
+    for (const Index c : charts) {
+        std::vector<Label> labels;
+        for (Label l = 0; l < kLabels; l++)
+            if (allowed[c][l]) labels.push_back(l);
+        if (labels.empty()) continue;   // the chart stays
+        for (const Index f : facets_of(state, c)) {
+            std::int64_t least = kAnyLoss;
+            for (const Label l : labels) least = std::min(least, judge.loss(f, l));
+            loss += least - judge.loss(f, state.labels[f]);
+            for (Index h = 3 * f; h < 3 * f + 3; h++)
+                if (mesh.feature[h] && h < mesh.opposite[h] && !state.graph.is_border(h)) loss -= judge.loss_per_feature();
+        }
+    }
+    return loss;
+}
+
+std::int64_t least_loss_of_removing_chart(const Judge& judge, const State& state, Index chart) {
+    return least_loss_of_removal(judge, state, {chart});
+}
+
+// Removing both charts costs what removing each alone costs, or more: neither can take the label of the other.
+std::int64_t least_loss_of_removing_around(const Judge& judge, const State& state, Index boundary) {
+    const Boundary& b = state.graph.boundaries[boundary];
+    const std::int64_t left = least_loss_of_removal(judge, state, {b.left}),
+                       right = least_loss_of_removal(judge, state, {b.right});
+    return std::min({left, right, left + right});
 }
 
 Proposals remove_chart(const TriMesh& mesh, const State& state, Index chart) { return remove_charts(mesh, state, {chart}); }

@@ -35,7 +35,13 @@ public:
 
     // labels, graph and turning belong together. Exactly the difference to build_graph() and find_turning_points() of the
     // patched labels. O(facets of the patch + boundaries that pass it + what cut charts need)
-    Effect effect(const Labeling& labels, const LabelingGraph& graph, const TurningPoints& turning, const Patch& patch);
+    Effect effect(const Labeling& labels, const LabelingGraph& graph, const TurningPoints& turning, const Patch& patch) {
+        begin(labels, graph, turning, patch);
+        return finish();
+    }
+    // The same in two halves, the first of which is quick: it finds the feature edges that are lost, and changes().
+    Index begin(const Labeling& labels, const LabelingGraph& graph, const TurningPoints& turning, const Patch& patch);
+    Effect finish();
     // Of the last patch: what differs from the labels it was to change, each facet once.
     const Patch& changes() const { return changes_; }
 

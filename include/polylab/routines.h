@@ -1,7 +1,8 @@
 // routines.h: Algorithms 1 and 2 of the paper (Section 7): first a valid labeling, then one without turning-points.
 //
 // differs: every step is kept only if the score improves (state.h), so the routines end, and end with the best labeling
-// seen. Monotonicity is attempted on whatever validity leaves. Elements are not tried again in the same state.
+// seen. Monotonicity is attempted on whatever validity leaves. An element is tried again only if
+// something around it has changed, or if a later pass allows the loss that it was refused for.
 #pragma once
 
 #include "polylab/quality_operators.h"
@@ -18,8 +19,8 @@ struct Step {
     bool in_sequence = false;   // part of a sequence that may be given up as a whole
     bool kept = false;
     Index proposals = 0;   // how many variants were tried
-    Index facets = 0;      // of the best one: how many facets it relabels
-    Score before, after;   // after: of the best variant, kept or not
+    Index facets = 0;      // of the best one that was not too costly to be judged: how many facets it relabels; 0 if all were
+    Score before, after;   // after: of that one, kept or not
 };
 
 struct RoutineOptions {

@@ -37,6 +37,9 @@ struct State {
 inline constexpr double kLostWeight = 0.5;
 inline constexpr double kLossUnit = 1e6;   // the loss of a facet whose fidelity is 0
 
+inline constexpr std::int64_t kAnyLoss = std::numeric_limits<std::int64_t>::max();
+inline constexpr Index kUnknown = std::numeric_limits<Index>::max();
+
 class Judge {
 public:
     // Locked facets have the labels of `locks` whatever a labeling or a patch says; an empty list locks none, kNoLabel leaves
@@ -45,13 +48,15 @@ public:
 
     const TriMesh& mesh() const { return mesh_; }
     State state(Labeling labels) const;
-    // The score that `state` would have with the patch applied, at the price of what the patch changes.
-    Score score(const State& state, const Patch& patch);
+    // The score that `state` would have with the patch applied, at the price of what the patch changes. Where the loss would be
+    // more than `most_loss`, which is quick to see, only the loss is right: the rest is kUnknown, worse than any.
+    Score score(const State& state, const Patch& patch, std::int64_t most_loss = kAnyLoss);
     // How many charts the patch scored last would add.
     Index added_charts() const { return effect_.charts; }
     // Makes `state` that of its labels with the patch applied. At the price of update_graph()
     void apply(State& state, const Patch& patch);
-    std::int64_t loss(Index f, Label l) const;   // kLossUnit (1 - fidelity)
+    std::int64_t loss(Index f, Label l) const;                            // kLossUnit (1 - fidelity)
+    std::int64_t loss_per_feature() const { return loss_per_feature_; }   // of each that is lost
 
 private:
     Index invalid(Index elements, Index charts) const;
@@ -60,7 +65,7 @@ private:
     const TriMesh& mesh_;
     bool allow_opposite_;
     Labeling locks_;
-    std::int64_t loss_per_feature_ = 0;   // that is lost
+    std::int64_t loss_per_feature_ = 0;
     EffectFinder effects_;
     Effect effect_;   // of the patch scored last
     Patch allowed_;   // memory of score(): the patch without locked facets

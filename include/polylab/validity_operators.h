@@ -41,6 +41,12 @@ Proposals remove_chart(const TriMesh& mesh, const State& state, Index chart);
 // The charts at one side, the other or both sides of an invalid boundary are removed (Algorithm 1, line 20).
 Proposals remove_charts_around_boundary(const TriMesh& mesh, const State& state, Index boundary);
 
+// No proposal of these removals costs less: every facet takes the best label that it may, and the feature edges inside are won
+// back. Much quicker than the cuts.
+std::int64_t least_loss_of_removal(const Judge& judge, const State& state, const std::vector<Index>& charts);
+std::int64_t least_loss_of_removing_chart(const Judge& judge, const State& state, Index chart);
+std::int64_t least_loss_of_removing_around(const Judge& judge, const State& state, Index boundary);
+
 // The chart spreads over the facets around it, 1 to 8 rings far, all around or into one neighbour: a chart that is too
 // small for its place may reach more neighbours. Not in the paper.
 Proposals grow_chart(const TriMesh& mesh, const State& state, Index chart);
