@@ -57,8 +57,7 @@ int pairwise_cost(const Vec3& normal, const Vec3& neighbour, int compactness) {
 }
 
 PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) {
-    PottsEnergy energy;
-    energy.data.resize(mesh.facets());
+    PottsEnergy energy(mesh.facets());
     Vec3 last;   // the facets of a plane often come one after the other: the same normal, the same costs
     for (Index f = 0; f < mesh.facets(); f++) {
         if (f > 0 && mesh.normal[f] == last) {
@@ -69,18 +68,16 @@ PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) 
         const Vec3 n = is_to_tilt(last, options.sensitivity) ? tilted(last, options.angle) : last;
         for (Label l = 0; l < kLabels; l++) energy.data[f][l] = data_cost(n, l, options.fidelity);
     }
-    energy.ends.reserve(mesh.halfedges());
-    energy.weight.reserve(mesh.halfedges() / 2);
     double cosine = 1;   // likewise
     int cost = bell_cost(0, kPairwiseSigma, kCostScale * options.compactness);
     for (Index h = 0; h < mesh.halfedges(); h++) {
-        if (h > mesh.opposite[h]) continue;
-        energy.ends.push_back(mesh.left(h));
-        energy.ends.push_back(mesh.right(h));
+        const Index back = mesh.opposite[h];
+        if (h > back) continue;
         const double c = dot(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)]);
         if (c != cosine) cost = bell_cost(c - 1, kPairwiseSigma, kCostScale * options.compactness);
         cosine = c;
-        energy.weight.push_back(cost);
+        energy.arcs[facet(h)][h % 3] = {facet(back), cost};
+        energy.arcs[facet(back)][back % 3] = {facet(h), cost};
     }
     return energy;
 }

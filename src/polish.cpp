@@ -50,16 +50,18 @@ Proposals with_parts(const TriMesh& mesh, Patch patch) {
 
 Proposals Redraw::operator()(const State& state, const std::vector<Index>& facets, int compactness) {
     bool occurs[kLabels] = {};
-    Labeling labels;
+    labels_.clear();
+    sites_.clear(mesh_.facets());
     for (const Index f : facets) {
-        labels.push_back(state.labels[f]);
+        sites_.insert(f);
+        labels_.push_back(state.labels[f]);
         occurs[state.labels[f]] = true;
         for (Index h = 3 * f; h < 3 * f + 3; h++) occurs[state.labels[mesh_.right(h)]] = true;
     }
     std::vector<std::int16_t>& pairwise = pairwise_[compactness];
     pairwise.resize(mesh_.halfedges(), kNone);
-    Expansion expansion(local_energy(
-        mesh_, state.labels, facets,
+    set_local_energy(
+        energy_, mesh_, state.labels, facets, sites_,
         [&](Index f, Label l) { return static_cast<Index>(kDataScale * (1 - along(mesh_.normal[f], l)) + 0.5); },
         [&](Index h) {
             std::int16_t& cost = pairwise[mesh_.edge(h)];
@@ -68,12 +70,12 @@ Proposals Redraw::operator()(const State& state, const std::vector<Index>& facet
                 cost = static_cast<std::int16_t>(mesh_.feature[h] ? 0 : pairwise_cost(n, m, compactness));
             }
             return static_cast<Index>(cost);
-        }));
+        });
     for (Label l = 0; l < kLabels; l++)
-        if (occurs[l]) expansion.move(l, labels);
+        if (occurs[l]) expansion_.move(l, labels_);
     Patch patch;
     for (std::size_t i = 0; i < facets.size(); i++)
-        if (labels[i] != state.labels[facets[i]]) patch.push_back({facets[i], labels[i]});
+        if (labels_[i] != state.labels[facets[i]]) patch.push_back({facets[i], labels_[i]});
     return patch.empty() ? Proposals{} : with_parts(mesh_, std::move(patch));
 }
 

@@ -37,9 +37,8 @@ std::string costs_stage(const TriMesh& mesh) {
     std::string out;
     const PottsEnergy energy = labeling_energy(mesh);
     for (const auto& d : energy.data) line(out, "data", {d[0], d[1], d[2], d[3], d[4], d[5]});
-    Index e = 0;   // the energy's edges come in the order of their smaller half-edges
     for (Index h = 0; h < mesh.halfedges(); h++)
-        if (h < mesh.opposite[h]) line(out, "pair", {h, energy.weight[e++]});
+        if (h < mesh.opposite[h]) line(out, "pair", {h, energy.arcs[facet(h)][h % 3].weight});
     return out;
 }
 

@@ -223,8 +223,8 @@ Cut removal_cut(const TriMesh& mesh, const State& state, const std::vector<Index
         cut.facets.insert(cut.facets.end(), facets.begin(), facets.end());
     }
     std::sort(cut.facets.begin(), cut.facets.end());   // by number, all different
-    cut.energy = local_energy(
-        mesh, state.labels, cut.facets,
+    set_local_energy(
+        cut.energy, mesh, state.labels, cut.facets, IndexSet(cut.facets),
         [&](Index f, Label l) { return data_cost(mesh.normal[f], l, 1) + (allowed[state.graph.chart[f]][l] ? 0 : kForbidden); },
         [&](Index h) { return pairwise_cost(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)], compactness); });
     return cut;

@@ -13,17 +13,19 @@ namespace {
 
 constexpr Index kForbidden = 100000;
 
-Index sites(const PottsEnergy& energy) { return static_cast<Index>(energy.data.size()); }
+Index free_arcs(const PottsEnergy& energy, Index site) {
+    const auto& arcs = energy.arcs[site];
+    return static_cast<Index>(std::count_if(arcs.begin(), arcs.end(), [&](const auto& arc) { return arc.site == site; }));
+}
 
+// At most `edges`: some may find no free place.
 PottsEnergy random_energy(Lcg& random, Index n, Index edges, Index largest_data, Index largest_weight) {
-    PottsEnergy energy;
-    energy.data.resize(n);
+    PottsEnergy energy(n);
     for (auto& costs : energy.data)
         for (Index& c : costs) c = random.below(largest_data + 1);
     for (Index e = 0; e < edges && n > 1; e++) {
-        const Index a = random.below(n), b = (a + 1 + random.below(n - 1)) % n;
-        energy.ends.insert(energy.ends.end(), {a, b});
-        energy.weight.push_back(random.below(largest_weight + 1));
+        const Index a = random.below(n), b = (a + 1 + random.below(n - 1)) % n, weight = random.below(largest_weight + 1);
+        if (free_arcs(energy, a) > 0 && free_arcs(energy, b) > 0) energy.connect(a, b, weight);
     }
     return energy;
 }
@@ -36,7 +38,7 @@ Labeling random_labels(Lcg& random, Index n) {
 
 // The best move towards alpha, by trying all: of the best ones together, where all best moves' sites take alpha.
 Labeling best_move(const PottsEnergy& energy, Label alpha, const Labeling& labels) {
-    const Index n = sites(energy);
+    const Index n = energy.sites();
     const std::int64_t before = energy(labels);
     std::int64_t least = before;
     unsigned takes = 0;   // union of the best moves, one bit per site
@@ -68,10 +70,11 @@ bool expand(const PottsEnergy& energy, Label alpha, Labeling& labels) { return E
 }   // namespace
 
 TEST_CASE("alpha expansion: the energy is data plus weights of edges with different labels") {
-    PottsEnergy energy;
+    PottsEnergy energy(3);
     energy.data = {{1, 2, 3, 4, 5, 6}, {10, 20, 30, 40, 50, 60}, {100, 200, 300, 400, 500, 600}};
-    energy.ends = {0, 1, 2, 1, 1, 2};   // the last two are parallel
-    energy.weight = {1000, 2000, 4000};
+    energy.connect(0, 1, 1000);
+    energy.connect(2, 1, 2000);
+    energy.connect(1, 2, 4000);   // parallel
     CHECK(energy({0, 0, 0}) == 111);
     CHECK(energy({5, 5, 5}) == 666);
     CHECK(energy({0, 1, 1}) == 221 + 1000);
@@ -79,7 +82,7 @@ TEST_CASE("alpha expansion: the energy is data plus weights of edges with differ
     CHECK(energy({2, 4, 1}) == 253 + 7000);
     CHECK(PottsEnergy{}({}) == 0);
     // 64 bits: 1000 sites at 2^24
-    energy = {};
+    energy = PottsEnergy(1000);
     energy.data.assign(1000, {0, 1 << 24, 0, 0, 0, 0});
     CHECK(energy(Labeling(1000, 1)) == 16777216000);
 }
@@ -88,14 +91,14 @@ TEST_CASE("alpha expansion: a move drawn by hand") {
     // Three sites in a row, labels 0 1 2, edges of weight 10. Towards 3:
     //   data of its own label  8   0   8
     //   data of 3              0   5   0          all keep: 16 + 20; all take: 5; ends alone: 20; so all take.
-    PottsEnergy energy;
+    PottsEnergy energy(3);
     energy.data.assign(3, {50, 50, 50, 50, 50, 50});
     energy.data[0][0] = energy.data[2][2] = 8;
     energy.data[0][3] = energy.data[2][3] = 0;
     energy.data[1][1] = 0;
     energy.data[1][3] = 5;
-    energy.ends = {0, 1, 1, 2};
-    energy.weight = {10, 10};
+    energy.connect(0, 1, 10);
+    energy.connect(1, 2, 10);
     Labeling labels = {0, 1, 2};
     CHECK(expand(energy, 3, labels));
     CHECK(labels == Labeling{3, 3, 3});
@@ -114,10 +117,9 @@ TEST_CASE("alpha expansion: a move drawn by hand") {
 }
 
 TEST_CASE("alpha expansion: a move that gains nothing is not made") {
-    PottsEnergy energy;
+    PottsEnergy energy(2);
     energy.data.assign(2, {4, 4, 4, 4, 4, 5});
-    energy.ends = {0, 1};
-    energy.weight = {3};
+    energy.connect(0, 1, 3);
     for (Label alpha = 0; alpha < kLabels; alpha++) {
         Labeling labels = {0, 0};
         CHECK_FALSE(expand(energy, alpha, labels));
@@ -207,7 +209,7 @@ TEST_CASE("alpha expansion: the energy goes down with every move that is made") 
 TEST_CASE("alpha expansion: without weights each site takes its cheapest label") {
     Lcg random(12);
     for (const Index edges : {0, 100}) {
-        PottsEnergy energy = random_energy(random, 50, edges, 100000, 0);
+        const PottsEnergy energy = random_energy(random, 50, edges, 100000, 0);
         const Labeling labels = alpha_expansion(energy, random_labels(random, 50));
         for (Index i = 0; i < 50; i++)
             CHECK(energy.data[i][labels[i]] == *std::min_element(energy.data[i].begin(), energy.data[i].end()));
@@ -218,15 +220,12 @@ TEST_CASE("alpha expansion: without weights each site takes its cheapest label")
 TEST_CASE("alpha expansion: large weights make one label of a connected part") {
     // Costs up to the promised 2^24. Sites 0..4 in a row, 5..9 in a row; label 4 is the cheapest for the first, 1 for the
     // second row in sum, though not for each site.
-    PottsEnergy energy;
+    PottsEnergy energy(10);
     energy.data.assign(10, {9, 9, 9, 9, 9, 9});
     for (Index i = 0; i < 10; i++) {
         energy.data[i][i < 5 ? 4 : 1] = 5;
         if (i % 5 == 2) energy.data[i][3] = 0;
-        if (i % 5 != 4) {
-            energy.ends.insert(energy.ends.end(), {i, i + 1});
-            energy.weight.push_back(1 << 24);
-        }
+        if (i % 5 != 4) energy.connect(i, i + 1, 1 << 24);
     }
     CHECK(alpha_expansion(energy, Labeling(10, 0)) == Labeling{4, 4, 4, 4, 4, 1, 1, 1, 1, 1});
     // A label locked at 2^24 elsewhere spreads: keeping it costs 0, so the whole row follows it.
@@ -239,14 +238,13 @@ TEST_CASE("alpha expansion: the numbering of the sites does not matter") {
     for (int round = 0; round < 50; round++) {
         const Index n = 100;
         const PottsEnergy energy = random_energy(random, n, 150, 3, 3);   // many ties
-        const std::vector<Index> place = random.permutation(n), edge_place = random.permutation(150);
-        PottsEnergy other = energy;
-        for (Index i = 0; i < n; i++) other.data[place[i]] = energy.data[i];
-        for (Index e = 0; e < 150; e++) {
-            const Index turn = random.below(2);
-            other.ends[2 * edge_place[e] + turn] = place[energy.ends[2 * e]];
-            other.ends[2 * edge_place[e] + 1 - turn] = place[energy.ends[2 * e + 1]];
-            other.weight[edge_place[e]] = energy.weight[e];
+        const std::vector<Index> place = random.permutation(n);
+        PottsEnergy other(n);
+        for (Index i = 0; i < n; i++) {
+            other.data[place[i]] = energy.data[i];
+            const Index turn = random.below(3);
+            for (Index k = 0; k < 3; k++)
+                other.arcs[place[i]][(k + turn) % 3] = {place[energy.arcs[i][k].site], energy.arcs[i][k].weight};
         }
         const Labeling labels = alpha_expansion(energy, Labeling(n, 0)), renumbered = alpha_expansion(other, Labeling(n, 0));
         for (Index i = 0; i < n; i++) CHECK(renumbered[place[i]] == labels[i]);

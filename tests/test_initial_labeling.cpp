@@ -151,18 +151,13 @@ TEST_CASE("initial labeling: the energy has one site per facet and one edge per 
     for (const MeshData& data : {shapes::cube(2), shapes::pyramid(5), shapes::frame(), shapes::tetrahedron_with_flat_facet()}) {
         const TriMesh mesh = build_mesh(data);
         const PottsEnergy energy = labeling_energy(mesh);
-        REQUIRE(energy.data.size() == static_cast<std::size_t>(mesh.facets()));
-        REQUIRE(energy.weight.size() == static_cast<std::size_t>(mesh.halfedges() / 2));
-        REQUIRE(energy.ends.size() == 2 * energy.weight.size());
-        std::vector<int> degree(mesh.facets(), 0);
-        for (std::size_t e = 0; e < energy.weight.size(); e++) {
-            const Index a = energy.ends[2 * e], b = energy.ends[2 * e + 1];
-            CHECK(a != b);
-            degree[a]++;
-            degree[b]++;
-            CHECK(energy.weight[e] == pairwise_cost(mesh.normal[a], mesh.normal[b], 1));
+        REQUIRE(energy.sites() == mesh.facets());
+        REQUIRE(energy.arcs.size() == energy.data.size());
+        for (Index h = 0; h < mesh.halfedges(); h++) {
+            const auto [site, weight] = energy.arcs[mesh.left(h)][h % 3];
+            CHECK(site == mesh.right(h));
+            CHECK(weight == pairwise_cost(mesh.normal[mesh.left(h)], mesh.normal[site], 1));
         }
-        CHECK(degree == std::vector<int>(mesh.facets(), 3));
     }
 }
 
@@ -189,8 +184,9 @@ TEST_CASE("initial labeling: a facet without area has neither preference nor bor
     const TriMesh mesh = build_mesh(shapes::tetrahedron_with_flat_facet());
     const PottsEnergy energy = labeling_energy(mesh);
     for (Label l = 0; l < kLabels; l++) CHECK(energy.data[4][l] == 299);   // n.d = 0, tilted or not
-    for (std::size_t e = 0; e < energy.weight.size(); e++)
-        if (energy.ends[2 * e] == 4 || energy.ends[2 * e + 1] == 4) CHECK(energy.weight[e] == 0);
+    for (Index f = 0; f < mesh.facets(); f++)
+        for (const auto& [other, weight] : energy.arcs[f])
+            if (f == 4 || other == 4) CHECK(weight == 0);
 }
 
 TEST_CASE("initial labeling: tilted normals count in the data cost only") {
@@ -200,11 +196,12 @@ TEST_CASE("initial labeling: tilted normals count in the data cost only") {
         CHECK(energy.data[f][0] == 221);
         CHECK(energy.data[f][2] == 170);
     }
-    for (std::size_t e = 0; e < energy.weight.size(); e++) {
-        const Index a = energy.ends[2 * e] / 2, b = energy.ends[2 * e + 1] / 2;   // sides
-        if ((a == 2) == (b == 2) || a > 4 || b > 4) continue;
-        CHECK(energy.weight[e] == 50);   // at 45 degrees; with the tilted normal it would be 42 to +X, 58 to +Y
-    }
+    for (Index f = 0; f < mesh.facets(); f++)
+        for (const auto& [other, weight] : energy.arcs[f]) {
+            const Index a = f / 2, b = other / 2;   // sides
+            if ((a == 2) == (b == 2) || a > 4 || b > 4) continue;
+            CHECK(weight == 50);   // at 45 degrees; with the tilted normal it would be 42 to +X, 58 to +Y
+        }
     InitialOptions untilted;
     untilted.sensitivity = 0;
     CHECK(labeling_energy(mesh, untilted).data[4][0] == 197);

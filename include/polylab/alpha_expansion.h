@@ -15,15 +15,24 @@
 
 namespace polylab {
 
+// Sites are facets, so each has three edges at most, and a fixed place for each: nothing has to be sorted or looked up.
 struct PottsEnergy {
+    struct Arc {
+        Index site, weight;   // the site at the other end; cost of different labels, 0 .. 2^24
+    };
     std::vector<std::array<Index, kLabels>> data;   // site -> cost of each label, 0 .. 2^24
-    std::vector<Index> ends;                        // 2 sites per edge, different ones
-    std::vector<Index> weight;                      // edge -> cost of different labels, 0 .. 2^24
+    std::vector<std::array<Arc, 3>> arcs;           // site -> its edges; where it has fewer, arcs of weight 0 to itself
 
+    PottsEnergy() = default;
+    explicit PottsEnergy(Index sites);   // without edges, all labels for nothing
+
+    Index sites() const { return static_cast<Index>(data.size()); }
+    // Adds an edge between two sites, each of which has at most two so far.
+    void connect(Index a, Index b, Index weight);
     std::int64_t operator()(const Labeling& labels) const;
 };
 
-// The moves of one energy. A site on the source side of the cut takes alpha, one on the sink side
+// The moves of an energy, which stays the caller's and may change between moves. A site on the source side of the cut takes alpha, one on the sink side
 // keeps its label. Most sites are decided before the max-flow: one whose own gain outweighs all of its edges takes alpha
 // whatever its neighbours do, and one whose loss does keeps its label; that settles its edges, and may decide its neighbours.
 // Of the rest, connected sites of which none would lose by alpha take it, and of which none would gain keep. What is left is
@@ -31,43 +40,40 @@ struct PottsEnergy {
 // port: any exact construction gives the same moves, since the minimum cut with the largest source side is unique.
 class Expansion {
 public:
-    explicit Expansion(PottsEnergy energy);   // O(sites + edges)
+    explicit Expansion(const PottsEnergy& energy) : energy_(energy) {}
 
     // The best move towards alpha from `labels`: applied, and true returned, if its energy is lower than before.
-    // tie: among the moves of least energy, the one in which most sites take alpha. O(sites + edges), and one max-flow.
+    // tie: among the moves of least energy, the one in which most sites take alpha. O(sites), and one max-flow.
     bool move(Label alpha, Labeling& labels);
 
 private:
     enum class Choice : char { open, takes, keeps, in_core };
-    struct Arc {
-        Index site, weight;
+    // All costs doubled.
+    struct Site {
+        Index excess;   // what it gains by alpha, with the edges to decided sites
+        Index around;   // capacity of its edges to open sites
+        Index node;     // its number in core_
+        Choice choice;
     };
 
-    Index arc_begin(Index i) const { return first_[i]; }
-    Index arc_end(Index i) const { return first_[i + 1]; }
     void decide(Index i);
     void settle_edges(const Labeling& labels);
-    void collect_core(const Labeling& labels);
+    void collect_core();
     void solve_core(const Labeling& labels);
     std::int64_t gain(Label alpha, const Labeling& labels) const;
 
-    std::vector<std::array<Index, kLabels>> data_;   // as in the energy
-    std::vector<Index> first_;                       // the arcs of site i are first_[i] .. first_[i+1] - 1
-    std::vector<Arc> arcs_;                          // edges with a weight, from both ends
+    const PottsEnergy& energy_;
 
-    // Of the current move, all costs doubled:
-    std::vector<Choice> choice_;
-    std::vector<Index> excess_;                      // site -> what it gains by alpha, with the edges to decided sites
-    std::vector<Index> around_;                      // site -> capacity of its edges to open sites
+    // Of the current move:
+    std::vector<Site> sites_;
     std::vector<Index> queue_;                       // decided sites, whose neighbours have to be told
     std::vector<Index> core_;                        // the sites that max-flow decides
-    std::vector<Index> node_;                        // site -> its number in core_
     std::vector<Index> core_ends_, core_capacity_;   // its edges
     MaxFlow network_;
 };
 
 // Cycles over the labels 0..5 in this order, at most `cycles`, ending early after a cycle without change, or before the
 // next move once `stop` says so.
-Labeling alpha_expansion(PottsEnergy energy, Labeling start, int cycles = 2, const Stop& stop = {});
+Labeling alpha_expansion(const PottsEnergy& energy, Labeling start, int cycles = 2, const Stop& stop = {});
 
 }   // namespace polylab

@@ -8,34 +8,35 @@
 
 namespace polylab {
 
-// A set of indices 0 .. n-1 that is emptied in no time: for memory that is kept between searches.
+// A set of indices 0 .. n-1 that is emptied in no time: for memory that is kept between searches. Each index has a number: how
+// many were inserted before it.
 class Marks {
 public:
-    // Empties the set and makes room for n indices. O(1), but for the first time and after growth.
+    // Empties the set and makes room for n indices. O(1), but for the first time, after growth, and once in 2^31 insertions.
     void clear(Index n) {
-        if (static_cast<std::size_t>(n) > round_.size()) round_.resize(n, 0);
-        if (now_ == std::numeric_limits<Index>::max()) {
-            std::fill(round_.begin(), round_.end(), 0);
-            now_ = 0;
-        }
-        now_++;
+        if (static_cast<std::size_t>(n) > mark_.size()) mark_.resize(n, 0);
+        first_ = next_;
+        if (first_ <= std::numeric_limits<Index>::max() - n) return;
+        std::fill(mark_.begin(), mark_.end(), 0);
+        first_ = next_ = 1;
     }
-    bool has(Index i) const { return round_[i] == now_; }
+    bool has(Index i) const { return mark_[i] >= first_; }
+    // kNone if i is not in the set.
+    Index number(Index i) const { return has(i) ? mark_[i] - first_ : kNone; }
     // Whether i was not in the set.
     bool insert(Index i) {
-        const bool added = round_[i] != now_;
-        round_[i] = now_;
-        return added;
+        if (has(i)) return false;
+        mark_[i] = next_++;
+        return true;
     }
-    void erase(Index i) { round_[i] = 0; }
 
 private:
-    std::vector<Index> round_;   // index -> number of the round in which it was inserted last
-    Index now_ = 0;
+    std::vector<Index> mark_;       // index -> first_ + its number, or less if it is not in the set
+    Index first_ = 1, next_ = 1;
 };
 
 // A set of few indices, in memory of its own size: for what a single search meets. A table with open addressing; nothing
-// iterates over it, so that its order is nobody's concern. Each index has a number: how many were inserted before it.
+// iterates over it, so that its order is nobody's concern. Numbers as above.
 class IndexSet {
 public:
     IndexSet() = default;

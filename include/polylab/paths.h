@@ -60,28 +60,23 @@ std::vector<Halfedges> contours(const TriMesh& mesh, const State& state, Index c
 std::vector<Halfedges> runs_of(const State& state, const Halfedges& contour);
 
 // The energy of labels for some facets, all different (site i is facets[i]), while all others keep theirs: data(f, l) per
-// facet, weight(h) per edge between different labels. An edge to a fixed facet costs its one site. O(n) in the facets
-template <class Data, class Weight>
-PottsEnergy local_energy(const TriMesh& mesh, const Labeling& labels, const std::vector<Index>& facets, const Data& data,
-                         const Weight& weight) {
-    PottsEnergy energy;
-    const IndexSet sites(facets);
-    for (const Index f : facets) {
-        std::array<Index, kLabels> cost;
-        for (Label l = 0; l < kLabels; l++) cost[l] = data(f, l);
-        for (Index h = 3 * f; h < 3 * f + 3; h++) {
-            const Index g = mesh.right(h), site = sites.number(g);
-            if (site == kNone) {
-                const Index w = weight(h);
-                for (Label l = 0; l < kLabels; l++) cost[l] += l == labels[g] ? 0 : w;
-            } else if (site > static_cast<Index>(energy.data.size())) {
-                energy.ends.insert(energy.ends.end(), {static_cast<Index>(energy.data.size()), site});
-                energy.weight.push_back(weight(h));
-            }
+// facet, weight(h) per edge between different labels, the same from both sides. An edge to a fixed facet costs its one site.
+// `numbers` has the facets' sites: an IndexSet or Marks. O(n) in the facets
+template <class Numbers, class Data, class Weight>
+void set_local_energy(PottsEnergy& energy, const TriMesh& mesh, const Labeling& labels, const std::vector<Index>& facets,
+                      const Numbers& numbers, const Data& data, const Weight& weight) {
+    energy.data.resize(facets.size());
+    energy.arcs.resize(facets.size());
+    for (std::size_t i = 0; i < facets.size(); i++) {
+        std::array<Index, kLabels>& cost = energy.data[i];
+        for (Label l = 0; l < kLabels; l++) cost[l] = data(facets[i], l);
+        for (int k = 0; k < 3; k++) {
+            const Index h = 3 * facets[i] + k, g = mesh.right(h), site = numbers.number(g), w = weight(h);
+            energy.arcs[i][k] = site == kNone ? PottsEnergy::Arc{static_cast<Index>(i), 0} : PottsEnergy::Arc{site, w};
+            if (site != kNone || w == 0) continue;
+            for (Label l = 0; l < kLabels; l++) cost[l] += l == labels[g] ? 0 : w;
         }
-        energy.data.push_back(cost);
     }
-    return energy;
 }
 
 // Sum of the facets' unit normals.

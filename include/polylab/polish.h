@@ -13,7 +13,9 @@ namespace polylab {
 
 class Redraw {
 public:
-    explicit Redraw(const TriMesh& mesh) : mesh_(mesh) {}
+    explicit Redraw(const TriMesh& mesh) : mesh_(mesh), expansion_(energy_) {}
+    Redraw(const Redraw&) = delete;
+    Redraw& operator=(const Redraw&) = delete;
 
     // The given facets (increasing), all others being fixed, take the labels that occur on and next to them, by a graph-cut. Its
     // data cost is the loss of fidelity, linear in the normal, so that it also tells labels apart that all point away from a
@@ -24,6 +26,12 @@ public:
 private:
     const TriMesh& mesh_;
     std::map<int, std::vector<std::int16_t>> pairwise_;   // compactness -> half-edge -> cost, kNone where not asked for yet
+
+    // Memory of a call.
+    Marks sites_;
+    PottsEnergy energy_;
+    Labeling labels_;
+    Expansion expansion_;
 };
 
 // `state` with better labels for faces beside lost feature edges, the borders near the facets that differ from `start` redrawn,
