@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 namespace polylab {
 
@@ -24,18 +25,19 @@ void MaxFlow::reset(Index nodes, const std::vector<Index>& ends) {
     for (Index e = 0; e < arcs; e += 2) {
         assert(ends[e] != ends[e + 1]);
         const Index there = first_[ends[e] + 1]++, back = first_[ends[e + 1] + 1]++;
-        arcs_[there] = {ends[e + 1], back, 0};
-        arcs_[back] = {ends[e], there, 0};
+        arcs_[there] = {ends[e + 1], back, 0, 0};
+        arcs_[back] = {ends[e], there, 0, 0};
         arc_of_edge_[e] = there;
         arc_of_edge_[e + 1] = back;
     }
     nodes_.resize(nodes);
     active_.resize(nodes);
+    level_.resize(nodes);
     clear();
 }
 
 void MaxFlow::clear() {
-    for (Arc& arc : arcs_) arc.residual = 0;
+    for (Arc& arc : arcs_) arc.residual = arc.back = 0;
     std::fill(nodes_.begin(), nodes_.end(), Node{});
     active_begin_ = active_count_ = 0;
     orphans_.clear();
@@ -45,8 +47,11 @@ void MaxFlow::clear() {
 
 void MaxFlow::add_edge_capacity(Index e, Index there, Index back) {
     assert(there >= 0 && back >= 0);
-    arcs_[arc_of_edge_[2 * e]].residual += there;
-    arcs_[arc_of_edge_[2 * e + 1]].residual += back;
+    Arc &arc = arcs_[arc_of_edge_[2 * e]], &sister = arcs_[arc.sister];
+    arc.residual += there;
+    arc.back += back;
+    sister.residual += back;
+    sister.back += there;
 }
 
 void MaxFlow::add_terminals(Index node, Index from_source, Index to_sink) {
@@ -63,49 +68,63 @@ void MaxFlow::add_terminals(Index node, Index from_source, Index to_sink) {
 // once, from the farthest nodes to the nearest, each node passing on what it has to those one arc nearer. Where it can't go
 // on it stays, as capacity between the terminal and that node. The value of every cut stays the same, but for the flow that
 // has arrived, so the minimum cuts are those of the graph as it was. Returns what moved over
-// all arcs. O(nodes + edges)
-std::int64_t MaxFlow::sweep(int sign) {
-    find_distances(sign);
+// all arcs. O(nodes that are not apart, and their edges)
+template <int sign>
+std::int64_t MaxFlow::sweep() {
+    constexpr Tree kFrom = sign > 0 ? Tree::source : Tree::sink;
+    const bool all_met = find_levels<sign>(false);
     std::int64_t moved = 0;
     for (std::size_t k = active_count_; k-- > 0;) {
-        Node& node = nodes_[active_[k]];
-        for (Index arc = first_[active_[k]]; arc < first_[active_[k] + 1] && sign * node.terminal > 0; arc++) {
-            Node& nearer = nodes_[arcs_[arc].head];
-            if (nearer.distance + 1 != node.distance) continue;
-            const Tree tree = sign > 0 ? Tree::source : Tree::sink;
-            const auto amount = static_cast<Index>(std::min<std::int64_t>(sign * node.terminal, from_root(arc, tree)));
-            from_root(arc, tree) -= amount;
-            toward_root(arc, tree) += amount;
-            if (sign * nearer.terminal < 0) flow_ += std::min<std::int64_t>(amount, -sign * nearer.terminal);
+        const Index i = active_[k], nearer = level_[i] - 1;
+        Node& node = nodes_[i];
+        for (Index arc = first_[i]; arc < first_[i + 1] && sign * node.terminal > 0; arc++) {
+            if (level_[arcs_[arc].head] != nearer || nearer < 0) continue;
+            Node& other = nodes_[arcs_[arc].head];
+            const auto amount = static_cast<Index>(std::min<std::int64_t>(sign * node.terminal, from_root(arc, kFrom)));
+            push(arc, sign * amount);
+            if (sign * other.terminal < 0) flow_ += std::min<std::int64_t>(amount, -sign * other.terminal);
             node.terminal -= sign * amount;
-            nearer.terminal += sign * amount;
+            other.terminal += sign * amount;
             moved += amount;
         }
     }
+    if (!all_met) set_apart();
     active_count_ = 0;
     return moved;
 }
 
-// Breadth-first from the sinks (sign 1) or the sources (-1), against the direction in which a sweep moves, until all nodes
-// that have something to move are met. Those that were met are in active_ then, nearest first.
-void MaxFlow::find_distances(int sign) {
-    Index waiting = 0;
-    for (Index i = 0; i < nodes(); i++) {
-        const bool end = sign * nodes_[i].terminal < 0;
-        nodes_[i].distance = end ? 0 : kNone;
-        if (end) active_[active_count_++] = i;
-        waiting += sign * nodes_[i].terminal > 0;
+// Levels breadth-first from the sinks (sign 1) or the sources (-1), against the direction in which a sweep moves: of all nodes
+// that can be met, or until those are met that have something to move. Whether they are. The nodes that were met are in active_
+// then, nearest first.
+template <int sign>
+bool MaxFlow::find_levels(bool all) {
+    constexpr Tree kFrom = sign > 0 ? Tree::source : Tree::sink;
+    Index waiting = all;
+    for (const Index i : within_) {
+        const std::int64_t terminal = sign * nodes_[i].terminal;
+        level_[i] = terminal < 0 ? 0 : kNone;
+        if (terminal < 0) active_[active_count_++] = i;
+        waiting += terminal > 0;
     }
     for (std::size_t k = 0; k < active_count_ && waiting > 0; k++) {
-        const Index near = active_[k];
+        const Index near = active_[k], level = level_[near] + 1;
         for (Index arc = first_[near]; arc < first_[near + 1]; arc++) {
-            Node& other = nodes_[arcs_[arc].head];
-            if (other.distance != kNone || toward_root(arc, sign > 0 ? Tree::source : Tree::sink) == 0) continue;
-            other.distance = nodes_[near].distance + 1;
-            active_[active_count_++] = arcs_[arc].head;
-            waiting -= sign * other.terminal > 0;
+            const Index other = arcs_[arc].head;
+            if (level_[other] != kNone || toward_root(arc, kFrom) == 0) continue;
+            level_[other] = level;
+            active_[active_count_++] = other;
+            waiting -= sign * nodes_[other].terminal > 0;
         }
     }
+    return waiting == 0;
+}
+
+// A node that a complete search has not met can't take part any more: what moves later stays among those that were met, so
+// it opens no way to them.
+void MaxFlow::set_apart() {
+    for (const Index i : within_)
+        if (level_[i] == kNone) level_[i] = kApart;
+    within_.assign(active_.begin(), active_.begin() + static_cast<std::ptrdiff_t>(active_count_));
 }
 
 // Grows the two trees from the terminals until they meet, augments the path, repairs the trees, and goes on from there:
@@ -113,8 +132,12 @@ void MaxFlow::find_distances(int sign) {
 std::int64_t MaxFlow::solve() {
     // In turn from both ends: each direction soon stands before what the other one opens. Once a sweep moves less than a
     // quarter of a unit per node, the trees are quicker.
-    for (int sign = 1; 4 * sweep(sign) > nodes(); sign = -sign) continue;
-    for (Index i = 0; i < nodes(); i++) {
+    within_.resize(nodes());
+    std::iota(within_.begin(), within_.end(), 0);
+    while (4 * sweep<1>() > static_cast<Index>(within_.size()) && 4 * sweep<-1>() > static_cast<Index>(within_.size())) continue;
+    for (Index i = 0; i < nodes(); i++)
+        if (level_[i] == kApart) nodes_[i].tree = Tree::apart;
+    for (const Index i : within_) {
         if (nodes_[i].terminal == 0) continue;
         nodes_[i].tree = nodes_[i].terminal > 0 ? Tree::source : Tree::sink;
         nodes_[i].parent = kRoot;
@@ -137,15 +160,28 @@ std::int64_t MaxFlow::solve() {
             // The same arc again: it may have capacity left, or its other end may have become free.
         }
     }
+    // Who can still reach a sink?
+    within_.resize(nodes());
+    std::iota(within_.begin(), within_.end(), 0);
+    find_levels<1>(true);
     return flow_;
+}
+
+// Flow along the arc, or against it where the amount is negative.
+void MaxFlow::push(Index arc, Index amount) {
+    Arc &there = arcs_[arc], &sister = arcs_[there.sister];
+    there.residual -= amount;
+    there.back += amount;
+    sister.residual += amount;
+    sister.back -= amount;
 }
 
 // Residual capacity along the direction in which flow runs through the tree, for an arc that points to the parent:
 // from the parent in the source tree, to the parent in the sink tree.
-Index& MaxFlow::toward_root(Index arc, Tree tree) { return arcs_[tree == Tree::source ? arcs_[arc].sister : arc].residual; }
+Index MaxFlow::toward_root(Index arc, Tree tree) const { return tree == Tree::source ? arcs_[arc].back : arcs_[arc].residual; }
 
 // The same for an arc that points away from the root.
-Index& MaxFlow::from_root(Index arc, Tree tree) { return arcs_[tree == Tree::source ? arc : arcs_[arc].sister].residual; }
+Index MaxFlow::from_root(Index arc, Tree tree) const { return tree == Tree::source ? arcs_[arc].residual : arcs_[arc].back; }
 
 // Growth of `node` along one arc. True if the other end belongs to the other tree: an augmenting path.
 bool MaxFlow::join_or_meet(Index node, Index arc) {
@@ -159,7 +195,7 @@ bool MaxFlow::join_or_meet(Index node, Index arc) {
         nodes_[other].distance = nodes_[node].distance + 1;
         activate(other);
     } else if (nodes_[other].tree != tree) {
-        return true;
+        return nodes_[other].tree != Tree::apart;
     } else if (nodes_[other].stamp <= nodes_[node].stamp && nodes_[other].distance > nodes_[node].distance + 1) {
         // A shorter way to the root: keeps the trees shallow, and the paths short.
         nodes_[other].parent = arcs_[arc].sister;
@@ -182,14 +218,12 @@ void MaxFlow::augment(Index arc) {
     }
     augmentations_++;
     flow_ += amount;
-    arcs_[arc].residual -= amount;
-    arcs_[arcs_[arc].sister].residual += amount;
+    push(arc, amount);
     for (const Index end : ends) {
         Index i = end;
         while (nodes_[i].parent != kRoot) {
             const Index up = nodes_[i].parent;
-            toward_root(up, nodes_[i].tree) -= amount;
-            from_root(up, nodes_[i].tree) += amount;
+            push(up, nodes_[i].tree == Tree::source ? -amount : amount);
             if (toward_root(up, nodes_[i].tree) == 0) make_orphan(i);
             i = arcs_[up].head;
         }

@@ -10,8 +10,8 @@ namespace polylab {
 namespace {
 
 constexpr double kDataScale = 500;              // times 1 - cosine; an edge costs up to 100 at compactness 1
-constexpr int kBandWidths[] = {0, 1, 3, 6};     // rings of facets around those beside a boundary
-constexpr int kBandCompactness[] = {0, 1, 3};   // 0: every facet by itself; the score refuses what is too ragged
+constexpr int kBandWidths[] = {0, 3};        // rings of facets around those beside a boundary; more widths win little
+constexpr int kBandCompactness[] = {0, 3};   // 0: every facet by itself; the score refuses what is too ragged
 constexpr double kAway = -0.4;                  // cosine of normal and label, fidelity 0.3: the facet points away from its label
 constexpr Index kMostPolishProposals = 20000;   // as in the routines; parts need up to 3000
 

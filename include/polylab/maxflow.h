@@ -43,17 +43,21 @@ public:
 
     // Whether the node belongs to the largest source side of a minimum cut. After solve().
     // tie: a node that fits both sides is on the source side
-    bool on_source_side(Index node) const { return nodes_[node].tree != Tree::sink; }
+    bool on_source_side(Index node) const { return level_[node] == kNone; }
 
 private:
-    enum class Tree : char { none, source, sink };
+    enum class Tree : char { none, source, sink, apart };   // apart: no path from a source to a sink goes through the node
 
-    std::int64_t sweep(int sign);
-    void find_distances(int sign);
+    template <int sign>
+    std::int64_t sweep();
+    template <int sign>
+    bool find_levels(bool all);
+    void set_apart();
     bool join_or_meet(Index node, Index arc);
     void augment(Index arc);
-    Index& toward_root(Index arc, Tree tree);
-    Index& from_root(Index arc, Tree tree);
+    void push(Index arc, Index amount);
+    Index toward_root(Index arc, Tree tree) const;
+    Index from_root(Index arc, Tree tree) const;
     void adopt(Index node);
     Index distance_to_root(Index node);
     void activate(Index node);
@@ -63,22 +67,26 @@ private:
         Index head;       // the node it points to
         Index sister;     // the reverse arc
         Index residual;   // capacity left
+        Index back;       // that of the sister, kept here too: searches go both ways, and need not look there
     };
     struct Node {
         std::int64_t terminal = 0;   // residual capacity from the source (> 0) or to the sink (< 0)
         Index parent = kNone;        // arc to its parent, or kRoot, kOrphan, kNone
         Index stamp = 0;             // augmentation after which its distance was found
-        Index distance = 0;          // number of arcs to its terminal, at that time; in a sweep, to the nearest one, or kNone
+        Index distance = 0;          // number of arcs to its terminal, at that time
         Tree tree = Tree::none;      // search tree it belongs to
         bool queued = false;         // in active_
     };
+    static constexpr Index kApart = -2;   // level of a node that is apart
 
     std::vector<Index> first_;   // the arcs of node i are first_[i] .. first_[i+1] - 1
     std::vector<Arc> arcs_;
     std::vector<Index> arc_of_edge_;   // edge -> its two arcs, there and back
     std::vector<Node> nodes_;
 
-    std::vector<Index> active_;   // ring buffer of nodes whose arcs may lead out of their tree; in a sweep, nodes by distance
+    std::vector<Index> level_;    // node -> number of arcs to the nearest terminal that a sweep goes to, kNone, or kApart
+    std::vector<Index> within_;   // the nodes that are not apart
+    std::vector<Index> active_;   // ring buffer of nodes whose arcs may lead out of their tree; in a sweep, nodes by level
     std::size_t active_begin_ = 0, active_count_ = 0;
     std::vector<Index> orphans_;   // nodes that lost their parent
     Index augmentations_ = 0;
