@@ -10,7 +10,7 @@ namespace polylab {
 namespace {
 
 constexpr double kDataScale = 500;              // times 1 - cosine; an edge costs up to 100 at compactness 1
-constexpr int kBandWidths[] = {0, 3};        // rings of facets around those beside a boundary; more widths win little
+constexpr int kBandRings[] = {0, 1, 3};         // of facets around those beside a boundary, each time added to those before
 constexpr int kBandCompactness[] = {0, 3};   // 0: every facet by itself; the score refuses what is too ragged
 constexpr double kAway = -0.4;                  // cosine of normal and label, fidelity 0.3: the facet points away from its label
 constexpr Index kMostPolishProposals = 20000;   // as in the routines; parts need up to 3000
@@ -76,6 +76,7 @@ Proposals Redraw::operator()(const State& state, const std::vector<Index>& facet
     Patch patch;
     for (std::size_t i = 0; i < facets.size(); i++)
         if (labels_[i] != state.labels[facets[i]]) patch.push_back({facets[i], labels_[i]});
+    std::sort(patch.begin(), patch.end(), [](const Relabel& a, const Relabel& b) { return a.facet < b.facet; });   // all different
     return patch.empty() ? Proposals{} : with_parts(mesh_, std::move(patch));
 }
 
@@ -94,8 +95,7 @@ public:
             if (is_lost(h)) relabel_face(mesh_.left(h));
         while (note_changes(before) && !over()) {
             before = state_.labels;
-            for (Index b = 0; b < static_cast<Index>(state_.graph.boundaries.size()); b++)
-                if (is_near(b)) redraw_boundary(b);
+            for (Index b = 0; b < static_cast<Index>(state_.graph.boundaries.size()); b++) redraw_boundary(b);
             turned_.clear(mesh_.facets());
             for (Index f = 0; f < mesh_.facets(); f++)
                 if (near_.has(f) && points_away(f) && !turned_.has(f)) turn(f);
@@ -121,31 +121,24 @@ private:
         }
         return any;
     }
-    bool is_near(Index b) const {
-        const Range r = state_.graph.boundaries[b].halfedges;
-        for (Index i = r.first; i < r.last; i++) {
-            const Index h = state_.graph.halfedges[i];
-            if (near_.has(mesh_.left(h)) || near_.has(mesh_.right(h))) return true;
-        }
-        return false;
-    }
     bool is_lost(Index h) const { return mesh_.feature[h] && !state_.graph.is_border(h); }
     bool points_away(Index f) const { return along(mesh_.normal[f], state_.labels[f]) < kAway; }
 
-    // The facets and `rings` times those that touch them, in the order in which they are met.
-    std::vector<Index> widened(std::vector<Index> facets, int rings) {
+    // Facets, all different, that are to be widened by rings of those that touch them.
+    void begin_band(std::vector<Index> facets) {
+        band_ = std::move(facets);
         in_.clear(mesh_.facets());
-        for (const Index f : facets) in_.insert(f);
-        std::size_t first = 0;
+        for (const Index f : band_) in_.insert(f);
+        inner_ = 0;
+    }
+    void widen_band(int rings) {
         for (int r = 0; r < rings; r++) {
-            const std::size_t end = facets.size();
-            for (; first < end; first++) {
-                for (Index h = 3 * facets[first]; h < 3 * facets[first] + 3; h++)
+            const std::size_t end = band_.size();
+            for (; inner_ < end; inner_++)
+                for (Index h = 3 * band_[inner_]; h < 3 * band_[inner_] + 3; h++)
                     for (Index around = mesh_.cw(h); around != h; around = mesh_.cw(around))
-                        if (in_.insert(facet(around))) facets.push_back(facet(around));
-            }
+                        if (in_.insert(facet(around))) band_.push_back(facet(around));
         }
-        return facets;
     }
 
     // Of what is to be better than this: where nothing is invalid and nothing turns, only the loss can become less.
@@ -153,21 +146,22 @@ private:
 
     // ---- the operations
 
+    // The parts of a boundary that run near facets that have changed.
     void redraw_boundary(Index b) {
-        std::vector<Index> beside;
+        begin_band({});
         const Range r = state_.graph.boundaries[b].halfedges;
         for (Index i = r.first; i < r.last; i++) {
-            beside.push_back(mesh_.left(state_.graph.halfedges[i]));
-            beside.push_back(mesh_.right(state_.graph.halfedges[i]));
+            const Index h = state_.graph.halfedges[i], left = mesh_.left(h), right = mesh_.right(h);
+            if (!near_.has(left) && !near_.has(right)) continue;
+            if (in_.insert(left)) band_.push_back(left);
+            if (in_.insert(right)) band_.push_back(right);
         }
-        std::sort(beside.begin(), beside.end());
-        beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+        if (band_.empty()) return;
         Step step{"redraw-boundary", b, false, false, 0, 0, state_.score, state_.score};
-        for (const int width : kBandWidths) {
-            std::vector<Index> facets = widened(beside, width);
-            std::sort(facets.begin(), facets.end());   // all different
+        for (const int rings : kBandRings) {
+            widen_band(rings);
             for (const int compactness : kBandCompactness) {
-                const Proposals proposals = redraw_(state_, facets, compactness);
+                const Proposals proposals = redraw_(state_, band_, compactness);
                 for (std::size_t i = 0; i < proposals.size(); i++)
                     if (attempt(proposals[i], step) && i == 0) break;   // the whole, so no parts
             }
@@ -185,7 +179,9 @@ private:
             for (Index h = 3 * away[i]; h < 3 * away[i] + 3; h++)
                 if (points_away(mesh_.right(h)) && in_.insert(mesh_.right(h))) away.push_back(mesh_.right(h));
         for (const Index g : away) turned_.insert(g);
-        const std::vector<Index> around = widened(away, 1);   // behind those of `away`
+        begin_band(away);
+        widen_band(1);
+        const std::vector<Index>& around = band_;   // behind those of `away`
         Step step{"turn-facets", f, false, false, 0, 0, state_.score, state_.score};
         Patch best;
         Score best_score = state_.score;
@@ -285,6 +281,8 @@ private:
     Index proposals_tried_ = 0;
     std::set<std::uint64_t> tried_;
     Marks near_, in_, turned_;
+    std::vector<Index> band_;
+    std::size_t inner_ = 0;   // so many facets of the band have all that touch them in it
     Marks face_tried_;   // the faces tried since something has changed
 };
 
