@@ -139,12 +139,16 @@ std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index
     return region;
 }
 
-std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart, int rings) {
+std::vector<std::vector<Index>> bands(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart,
+                                      std::initializer_list<int> widths) {
+    std::vector<std::vector<Index>> result;
     IndexSet touched, in;
     std::vector<Index> facets, front;   // front: vertices touched last; what touches earlier ones is in, or in another chart
     for (const Index v : vertices)
         if (touched.insert(v)) front.push_back(v);
-    for (int r = 0; r < rings; r++) {
+    for (int r = 0;; r++) {
+        if (r == widths.begin()[result.size()]) result.push_back(facets);
+        if (result.size() == widths.size()) return result;
         const std::size_t ring = facets.size();
         for (const Index v : front)
             mesh.for_each_leaving(v, [&](Index h) {
@@ -157,7 +161,6 @@ std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vect
             for (int k = 0; k < 3; k++)
                 if (touched.insert(mesh.origin[3 * facets[i] + k])) front.push_back(mesh.origin[3 * facets[i] + k]);
     }
-    return facets;
 }
 
 std::vector<Index> strip_beside(const TriMesh& mesh, const State& state, const Halfedges& path, int width) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDataScale = 500;              // times 1 - cosine; an edge costs up to 100 at compactness 1
 constexpr int kBandRings[] = {0, 1, 3};         // of facets around those beside a boundary, each time added to those before
-constexpr int kBandCompactness[] = {0, 3};   // 0: every facet by itself; the score refuses what is too ragged
+constexpr int kBandCompactness[] = {0, 3};      // 0: every facet by itself; the score refuses what is too ragged
 constexpr double kAway = -0.4;                  // cosine of normal and label, fidelity 0.3: the facet points away from its label
 constexpr Index kMostPolishProposals = 20000;   // as in the routines; parts need up to 3000
 
@@ -76,7 +76,8 @@ Proposals Redraw::operator()(const State& state, const std::vector<Index>& facet
     Patch patch;
     for (std::size_t i = 0; i < facets.size(); i++)
         if (labels_[i] != state.labels[facets[i]]) patch.push_back({facets[i], labels_[i]});
-    std::sort(patch.begin(), patch.end(), [](const Relabel& a, const Relabel& b) { return a.facet < b.facet; });   // all different
+    std::sort(patch.begin(), patch.end(),
+              [](const Relabel& a, const Relabel& b) { return a.facet < b.facet; });   // all different
     return patch.empty() ? Proposals{} : with_parts(mesh_, std::move(patch));
 }
 
@@ -283,7 +284,7 @@ private:
     Marks near_, in_, turned_;
     std::vector<Index> band_;
     std::size_t inner_ = 0;   // so many facets of the band have all that touch them in it
-    Marks face_tried_;   // the faces tried since something has changed
+    Marks face_tried_;        // the faces tried since something has changed
 };
 
 }   // namespace

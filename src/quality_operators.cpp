@@ -8,10 +8,10 @@ namespace polylab {
 
 namespace {
 
-constexpr Index kShortestRun = 3;          // edges; shorter ones have nothing to straighten
-constexpr int kStripWidths[] = {1, 3};     // rings of facets of a chart along a path
-constexpr int kThinWidth = 2;              // of the thin chart that a pull may leave
-constexpr int kMoveWidths[] = {1, 2, 4};   // around a turning-point
+constexpr Index kShortestRun = 3;                               // edges; shorter ones have nothing to straighten
+constexpr int kStripWidths[] = {1, 3};                          // rings of facets of a chart along a path
+constexpr int kThinWidth = 2;                                   // of the thin chart that a pull may leave
+constexpr std::initializer_list<int> kMoveWidths = {1, 2, 4};   // around a turning-point
 
 // The half-edge of the boundary that leaves the turning-point.
 Index outgoing(const State& state, const TurningPoint& t) {
@@ -178,10 +178,8 @@ Proposals move_boundary_near(const TriMesh& mesh, const State& state, const Turn
     const bool left = leans_left(mesh, state.graph, t);
     for (const Index to : {left ? boundary.left : boundary.right, left ? boundary.right : boundary.left}) {
         const Index from = to == boundary.left ? boundary.right : boundary.left;
-        for (const int width : kMoveWidths) {
-            const std::vector<Index> facets = band(mesh, state, {t.vertex}, from, width);
+        for (const std::vector<Index>& facets : bands(mesh, state, {t.vertex}, from, kMoveWidths))
             if (!facets.empty()) proposals.push_back(relabel(facets, state.graph.charts[to].label));
-        }
     }
     return proposals;
 }

@@ -10,9 +10,10 @@ namespace polylab {
 
 namespace {
 
-constexpr int kWidths[] = {1, 2, 5};          // rings of facets of a chart inserted along a boundary
-constexpr int kGivenWidths[] = {1, 3};        // along a boundary that moves
-constexpr int kCornerWidths[] = {1, 2, 4};    // and around a corner
+constexpr std::initializer_list<int> kWidths = {1, 2, 5};          // rings of facets of a chart inserted along a boundary
+constexpr std::initializer_list<int> kGivenWidths = {1, 3};        // along a boundary that moves
+constexpr std::initializer_list<int> kCornerWidths = {1, 2, 4};    // around a corner
+constexpr std::initializer_list<int> kGrowWidths = {1, 2, 4, 8};   // around a chart that grows
 constexpr std::size_t kShortestSegment = 3;   // edges of a contour that go over to an inserted axis, unless fewer balance
 constexpr Index kForbidden = 100000;          // cost of a label that a facet must not take
 
@@ -163,12 +164,15 @@ void charts_along_rim(Proposals& proposals, const TriMesh& mesh, const State& st
     if (turns) proposals.push_back(std::move(patch));
 }
 
+std::vector<Index> joined(std::vector<Index> facets, const std::vector<Index>& others) {
+    facets.insert(facets.end(), others.begin(), others.end());
+    return facets;
+}
+
 // A new chart that covers the vertex.
 void chart_around(Proposals& proposals, const TriMesh& mesh, const State& state, Index vertex) {
-    for (const int width : kCornerWidths) {
-        const std::vector<Index> around = band(mesh, state, {vertex}, kNone, width);
+    for (const std::vector<Index>& around : bands(mesh, state, {vertex}, kNone, kCornerWidths))
         for (const Label l : labels_by_fit(mean_normal(mesh, around))) propose(proposals, around, l);
-    }
 }
 
 // A new chart beside each lost feature edge of the vertex, along the way that it leads: a boundary that should be there.
@@ -189,9 +193,11 @@ void sides_give_way(Proposals& proposals, const TriMesh& mesh, const State& stat
     const Boundary& boundary = state.graph.boundaries[b];
     const std::vector<Index> vertices = vertices_of(mesh, boundary_path(state, b));
     const Label left = state.graph.charts[boundary.left].label, right = state.graph.charts[boundary.right].label;
-    for (const int width : kGivenWidths) {
-        propose(proposals, band(mesh, state, vertices, boundary.left, width), right);
-        propose(proposals, band(mesh, state, vertices, boundary.right, width), left);
+    const std::vector<std::vector<Index>> at_left = bands(mesh, state, vertices, boundary.left, kGivenWidths),
+                                          at_right = bands(mesh, state, vertices, boundary.right, kGivenWidths);
+    for (std::size_t i = 0; i < kGivenWidths.size(); i++) {
+        propose(proposals, at_left[i], right);
+        propose(proposals, at_right[i], left);
     }
 }
 
@@ -277,14 +283,15 @@ Proposals opposite_boundary(const TriMesh& mesh, const State& state, Index bound
     const Halfedges path = boundary_path(state, boundary);
     Vec3 normal;
     for (const Index h : path) normal += mesh.area_vector(mesh.left(h)) + mesh.area_vector(mesh.right(h));
-    for (const int width : kWidths) {
-        std::vector<Index> left = band(mesh, state, vertices_of(mesh, path), b.left, width);
-        std::vector<Index> right = band(mesh, state, vertices_of(mesh, path), b.right, width);
-        std::vector<Index> both = left;
-        both.insert(both.end(), right.begin(), right.end());
+    const std::vector<Index> vertices = vertices_of(mesh, path);
+    const std::vector<std::vector<Index>> at_left = bands(mesh, state, vertices, b.left, kWidths),
+                                          at_right = bands(mesh, state, vertices, b.right, kWidths);
+    for (std::size_t i = 0; i < kWidths.size(); i++) {
+        const std::vector<Index>&left = at_left[i], &right = at_right[i];
+        const std::vector<Index> both = joined(left, right);
         for (const Label l : labels_by_fit(normal)) {
             if (!orthogonal(l, state.graph.charts[b.left].label) || !orthogonal(l, state.graph.charts[b.right].label)) continue;
-            for (const auto* facets : {&left, &right, &both}) propose(proposals, *facets, l);
+            for (const std::vector<Index>* facets : {&left, &right, &both}) propose(proposals, *facets, l);
         }
         if (axis(state.graph.charts[b.left].label) == axis(state.graph.charts[b.right].label))
             for (const auto* facets : {&left, &right, &both})
@@ -376,8 +383,8 @@ Proposals grow_chart(const TriMesh& mesh, const State& state, Index chart) {
     std::sort(neighbours.begin(), neighbours.end());
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     for (const Index into : neighbours)
-        for (const int rings : {1, 2, 4, 8})
-            propose(proposals, band(mesh, state, vertices, into, rings), state.graph.charts[chart].label);
+        for (const std::vector<Index>& facets : bands(mesh, state, vertices, into, kGrowWidths))
+            propose(proposals, facets, state.graph.charts[chart].label);
     return proposals;
 }
 

@@ -32,12 +32,12 @@ struct PottsEnergy {
     std::int64_t operator()(const Labeling& labels) const;
 };
 
-// The moves of an energy, which stays the caller's and may change between moves. A site on the source side of the cut takes alpha, one on the sink side
-// keeps its label. Most sites are decided before the max-flow: one whose own gain outweighs all of its edges takes alpha
-// whatever its neighbours do, and one whose loss does keeps its label; that settles its edges, and may decide its neighbours.
-// Of the rest, connected sites of which none would lose by alpha take it, and of which none would gain keep. What is left is
-// cut out of the network and solved by max-flow. All of this is exact.
-// port: any exact construction gives the same moves, since the minimum cut with the largest source side is unique.
+// The moves of an energy, which stays the caller's and may change between moves. A site on the source side of the cut takes
+// alpha, one on the sink side keeps its label. Most sites are decided before the max-flow: one whose own gain outweighs all of
+// its edges takes alpha whatever its neighbours do, and one whose loss does keeps its label; that settles its edges, and may
+// decide its neighbours. Of the rest, connected sites of which none would lose by alpha take it, and of which none would gain
+// keep. What is left is cut out of the network and solved by max-flow. All of this is exact. port: any exact construction gives
+// the same moves, since the minimum cut with the largest source side is unique.
 class Expansion {
 public:
     explicit Expansion(const PottsEnergy& energy) : energy_(energy) {}

@@ -31,7 +31,7 @@ public:
     }
 
 private:
-    std::vector<Index> mark_;       // index -> first_ + its number, or less if it is not in the set
+    std::vector<Index> mark_;   // index -> first_ + its number, or less if it is not in the set
     Index first_ = 1, next_ = 1;
 };
 

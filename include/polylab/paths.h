@@ -7,6 +7,7 @@
 #include "polylab/state.h"
 
 #include <array>
+#include <initializer_list>
 #include <vector>
 
 namespace polylab {
@@ -40,8 +41,14 @@ std::vector<Index> facets_of(const State& state, Index chart);
 // The facets of a chart at its side of a run of its border, one per half-edge, whichever way the run goes.
 std::vector<Index> facets_beside(const TriMesh& mesh, const State& state, const Halfedges& run, Index chart);
 
-// Facets of a chart (kNone: of any) that touch the given vertices, then those that touch these, `rings` times.
-std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart, int rings);
+// Facets of a chart (kNone: of any) that touch the given vertices, then those that touch these: for each of the widths, which
+// increase, so many rings.
+std::vector<std::vector<Index>> bands(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart,
+                                      std::initializer_list<int> widths);
+inline std::vector<Index> band(const TriMesh& mesh, const State& state, const std::vector<Index>& vertices, Index chart,
+                               int width) {
+    return bands(mesh, state, vertices, chart, {width}).front();
+}
 
 // The facets at the left of a path through a chart, `width` rings deep inside that chart and connected along the path,
 // without those that lie at its right.

@@ -17,8 +17,8 @@ public:
     Redraw(const Redraw&) = delete;
     Redraw& operator=(const Redraw&) = delete;
 
-    // The given facets (all different), all others being fixed, take the labels that occur on and next to them, by a graph-cut. Its
-    // data cost is the loss of fidelity, linear in the normal, so that it also tells labels apart that all point away from a
+    // The given facets (all different), all others being fixed, take the labels that occur on and next to them, by a graph-cut.
+    // Its data cost is the loss of fidelity, linear in the normal, so that it also tells labels apart that all point away from a
     // facet; the cost of Section 5 doesn't. Borders on kept feature edges cost nothing. The first proposal is the whole change;
     // if it falls into several edge-connected parts, these follow. O(n) in the facets given, but for the max-flow
     Proposals operator()(const State& state, const std::vector<Index>& facets, int compactness);
