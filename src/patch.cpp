@@ -14,14 +14,19 @@ Index EffectFinder::begin(const Labeling& labels, const LabelingGraph& graph, co
     return effect_.lost_features;
 }
 
-Effect EffectFinder::finish() {
+// First goes what is no more, then comes what is new, the quick things first: so the number of invalid elements only grows.
+Effect EffectFinder::finish(Index most_invalid) {
     if (changes_.empty()) return effect_;
     find_zone();
+    leave_old_charts();
+    leave_old_boundaries();
+    judge_corners();
+    if (effect_.invalid > most_invalid) return effect_;
     join_pieces();
     trace_boundaries();
-    leave_old_boundaries();
     judge_charts();
-    judge_corners();
+    if (effect_.invalid > most_invalid) return effect_;
+    count_turns();
     return effect_;
 }
 
@@ -84,6 +89,22 @@ Index EffectFinder::root(Index piece) {
     return piece;
 }
 
+void EffectFinder::leave_old_charts() {
+    old_charts_.clear();
+    met_chart_.clear(static_cast<Index>(graph_->charts.size()));
+    cut_chart_.clear(static_cast<Index>(graph_->charts.size()));
+    rest_.resize(std::max(rest_.size(), graph_->charts.size()));
+    for (const Relabel& r : changes_) cut_chart_.insert(graph_->chart[r.facet]);
+    for (const Index f : zone_) {
+        const Index c = graph_->chart[f];
+        if (!met_chart_.insert(c)) continue;
+        old_charts_.push_back(c);
+        rest_[c] = piece_[f];
+        effect_.charts--;
+        effect_.invalid -= !graph_->charts[c].valid;
+    }
+}
+
 // Which facets of the zone will be in one chart.
 void EffectFinder::join_pieces() {
     const Index n = static_cast<Index>(zone_.size());
@@ -94,19 +115,9 @@ void EffectFinder::join_pieces() {
             if (h < mesh_.opposite[h] && has_piece_.has(mesh_.right(h)) && !is_border(h))
                 unite(piece_[f], piece_[mesh_.right(h)]);
 
-    old_charts_.clear();
-    met_chart_.clear(static_cast<Index>(graph_->charts.size()));
-    cut_chart_.clear(static_cast<Index>(graph_->charts.size()));
-    rest_.resize(std::max(rest_.size(), graph_->charts.size()));
-    for (const Relabel& r : changes_) cut_chart_.insert(graph_->chart[r.facet]);
-    for (const Index f : zone_) {
+    for (const Index f : zone_) {   // connected outside the zone
         const Index c = graph_->chart[f];
-        if (met_chart_.insert(c)) {
-            old_charts_.push_back(c);
-            rest_[c] = piece_[f];
-        } else if (!cut_chart_.has(c)) {
-            unite(piece_[f], rest_[c]);   // connected outside the zone
-        }
+        if (!cut_chart_.has(c)) unite(piece_[f], rest_[c]);
     }
     for (const Index c : old_charts_)
         if (cut_chart_.has(c)) search_cut_chart(c);
@@ -173,6 +184,8 @@ bool EffectFinder::at_corner(Index border) const {
 void EffectFinder::trace_boundaries() {
     boundaries_.assign(zone_.size(), 0);
     traced_.clear(mesh_.halfedges());
+    paths_.clear();
+    new_boundaries_.clear();
     for (const Index fan : fans_) {
         Index h = fan;
         do {
@@ -193,34 +206,48 @@ void EffectFinder::trace(Index h) {
         }
         first = before;
     }
-    path_.clear();
+    const Index begin = static_cast<Index>(paths_.size()), old = graph_->boundary[h];
+    const Label left = label(mesh_.left(h)), right = label(mesh_.right(h));
+    bool is_old = old != kNone && (*labels_)[mesh_.left(h)] == left && (*labels_)[mesh_.right(h)] == right;
     Index at = first, smallest = std::numeric_limits<Index>::max();
     bool corner = false;
     do {
         const Index back = mesh_.opposite[at];
-        path_.push_back(at);
+        paths_.push_back(at);
         traced_.insert(at);
         traced_.insert(back);
         smallest = std::min({smallest, at, back});
+        is_old = is_old && graph_->boundary[at] == old;
         corner = at_corner(back);
         if (corner) break;
         at = next_border_ccw(back);
     } while (at != first);
+    boundaries_[root(piece_[mesh_.left(h)])]++;
+    boundaries_[root(piece_[mesh_.right(h)])]++;
 
-    const Label left = label(mesh_.left(h)), right = label(mesh_.right(h));
-    const int axis = boundary_axis(left, right);
-    if (axis != kNone && path_.size() > 1) {
-        const bool closed = !corner || mesh_.from(first) == mesh_.to(path_.back());
-        effect_.turning_points += static_cast<Index>(chain_turns(make_chain(mesh_, path_, axis), closed).size());
+    const Range path = {begin, static_cast<Index>(paths_.size())};
+    if (is_old && path.size() == graph_->boundaries[old].halfedges.size()) {   // it is the same, though it passes here
+        effect_.invalid += !graph_->boundaries[old].valid;
+        effect_.turning_points += turning_->of(old).size();
+        return;
     }
+    const int axis = boundary_axis(left, right);
+    if (axis != kNone && path.size() > 1)
+        new_boundaries_.push_back({path, axis, !corner || mesh_.from(first) == mesh_.to(paths_.back())});
     bool valid = axis != kNone || graph_->allow_opposite;
     if (valid && axis == kNone) {   // is_convex() depends on the direction
         const bool with_smallest = label(facet(smallest)) == left;
-        for (const Index p : path_) valid = valid && !is_convex(mesh_, with_smallest ? p : mesh_.opposite[p]);
+        for (Index i = path.first; i < path.last; i++)
+            valid = valid && !is_convex(mesh_, with_smallest ? paths_[i] : mesh_.opposite[paths_[i]]);
     }
     effect_.invalid += !valid;
-    boundaries_[root(piece_[mesh_.left(h)])]++;
-    boundaries_[root(piece_[mesh_.right(h)])]++;
+}
+
+void EffectFinder::count_turns() {
+    for (const Traced& b : new_boundaries_) {
+        const std::vector<Index> path(paths_.begin() + b.path.first, paths_.begin() + b.path.last);
+        effect_.turning_points += static_cast<Index>(chain_turns(make_chain(mesh_, path, b.axis), b.closed).size());
+    }
 }
 
 void EffectFinder::leave_old_boundaries() {
@@ -243,8 +270,6 @@ void EffectFinder::leave_old_boundaries() {
 void EffectFinder::judge_charts() {
     for (const Index c : old_charts_) {
         const Chart& chart = graph_->charts[c];
-        effect_.charts--;
-        effect_.invalid -= !chart.valid;
         // Boundaries that don't touch the zone stay, with one of the charts that come from this one.
         for (Index i = chart.boundaries.first; i < chart.boundaries.last; i++) {
             const Index b = graph_->chart_boundaries[i];

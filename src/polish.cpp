@@ -142,8 +142,12 @@ private:
         }
     }
 
-    // Of what is to be better than this: where nothing is invalid and nothing turns, only the loss can become less.
-    static std::int64_t most_loss(const Score& s) { return s.invalid == 0 && s.turning_points == 0 ? s.loss - 1 : kAnyLoss; }
+    // Of a patch, as far as it matters whether it is better than the bound: where nothing is invalid and nothing turns, only the
+    // loss can become less.
+    Score score(const Patch& patch, const Score& bound) {
+        const bool good = bound.invalid == 0 && bound.turning_points == 0;
+        return judge_.score(state_, patch, good ? bound.loss - 1 : kAnyLoss, bound.invalid);
+    }
 
     // ---- the operations
 
@@ -193,11 +197,11 @@ private:
                 if (i > none) facets.push_back(around[i]);
                 if (k > none) facets.push_back(around[k]);
                 for (Label l = 0; l < kLabels; l++) {
-                    const Score score = judge_.score(state_, relabel(facets, l), most_loss(best_score));
+                    const Score found = score(relabel(facets, l), best_score);
                     step.proposals++;
                     proposals_tried_++;
-                    if (!(score < best_score)) continue;
-                    best_score = score;
+                    if (!(found < best_score)) continue;
+                    best_score = found;
                     best = relabel(facets, l);
                 }
             }
@@ -226,15 +230,15 @@ private:
                 continue;
             step.proposals++;
             proposals_tried_++;
-            const Score score = judge_.score(state_, relabel(face, l), most_loss(step.after));
-            if (!(score < step.after) || judge_.added_charts() > 0) continue;
+            const Score found = score(relabel(face, l), step.after);
+            if (!(found < step.after) || judge_.added_charts() > 0) continue;
             std::int64_t cost = 0;
             for (const Index g : face) cost += judge_.loss(g, l) - judge_.loss(g, old);
-            if (score.invalid == step.before.invalid && score.turning_points == step.before.turning_points &&
-                step.before.loss - score.loss < cost)
+            if (found.invalid == step.before.invalid && found.turning_points == step.before.turning_points &&
+                step.before.loss - found.loss < cost)
                 continue;
             best = l;
-            step.after = score;
+            step.after = found;
         }
         if (best != old) {
             judge_.apply(state_, relabel(face, best));
@@ -250,7 +254,7 @@ private:
         if (over() || !tried_.insert(fingerprint(patch)).second) return false;
         step.proposals++;
         proposals_tried_++;
-        if (!(judge_.score(state_, patch, most_loss(state_.score)) < state_.score) || judge_.added_charts() > 0) return false;
+        if (!(score(patch, state_.score) < state_.score) || judge_.added_charts() > 0) return false;
         judge_.apply(state_, patch);
         step.kept = true;
         step.facets += static_cast<Index>(patch.size());

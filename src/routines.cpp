@@ -116,21 +116,18 @@ private:
         const Patch* best = nullptr;
         for (const Patch& patch : proposals) {
             if (stopped()) break;
-            const Score score = judge_.score(state_, patch, most_loss);
+            const Score score = judge_.score(state_, patch, most_loss, state_.score.invalid);
             if (score.loss > most_loss) {
                 too_much = std::min(too_much, score.loss - state_.score.loss);
-                continue;
+            } else if (score < state_.score) {
+                best = &patch;
+                step.kept = true;
+                step.facets = static_cast<Index>(patch.size());
+                step.after = score;
+                most_loss = score.loss - 1;
             }
-            const bool better = score < state_.score;
-            if (best && !better && !(score < step.after)) continue;
-            if (step.kept && !better) continue;
-            best = &patch;
-            step.kept = better;
-            step.after = score;
-            if (better) most_loss = score.loss - 1;
         }
         if (least_loss) *least_loss = step.kept ? loss_limit_ + 1 : too_much;
-        if (best) step.facets = static_cast<Index>(best->size());
         if (step.kept) judge_.apply(state_, *best);
         if (options_.trace && step.proposals > 0) options_.trace(step);
         return step.kept;

@@ -42,7 +42,7 @@ State Judge::state(Labeling labels) const {
     return state;
 }
 
-Score Judge::score(const State& state, const Patch& patch, std::int64_t most_loss) {
+Score Judge::score(const State& state, const Patch& patch, std::int64_t most_loss, Index most_invalid) {
     if (!locks_.empty()) {
         allowed_.clear();
         for (const Relabel& r : patch)
@@ -52,7 +52,8 @@ Score Judge::score(const State& state, const Patch& patch, std::int64_t most_los
     Score score = {kUnknown, kUnknown, state.score.loss + loss_per_feature_ * lost};
     for (const Relabel& r : effects_.changes()) score.loss += loss(r.facet, r.label) - loss(r.facet, state.labels[r.facet]);
     if (score.loss > most_loss) return score;
-    effect_ = effects_.finish();
+    effect_ = effects_.finish(most_invalid == kUnknown ? kUnknown : most_invalid - state.graph.invalid());
+    if (state.graph.invalid() + effect_.invalid > most_invalid) return score;
     score.invalid =
         invalid(state.graph.invalid() + effect_.invalid, static_cast<Index>(state.graph.charts.size()) + effect_.charts);
     score.turning_points = state.score.turning_points + effect_.turning_points;

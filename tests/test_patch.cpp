@@ -61,6 +61,15 @@ void check_random_patches(const TriMesh& mesh, bool allow_opposite, Lcg& random,
         CHECK(effect.turning_points == b.turning_points - a.turning_points);
         CHECK(effect.lost_features == b.lost_features - a.lost_features);
         CHECK(judge.score(state, patch) == after.score);
+        // With bounds: the same within them, beyond them worse than any.
+        const std::int64_t most_loss = after.score.loss + random.below(3) - 1;
+        const Index most_invalid = std::max(0, after.score.invalid + random.below(3) - 1);
+        const Score bounded = judge.score(state, patch, most_loss, most_invalid);
+        CHECK(bounded.loss == after.score.loss);
+        if (after.score.loss > most_loss || after.graph.invalid() > most_invalid)
+            CHECK(bounded.invalid == kUnknown);
+        else
+            CHECK(bounded == after.score);
         if (random.below(3) > 0) std::swap(state, after);
     }
 }

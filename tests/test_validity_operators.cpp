@@ -695,7 +695,10 @@ TEST_CASE("validity operators: removal relabels the chart alone, with labels of 
             const Proposals found = remove_chart(scene.mesh, scene.state, c);
             CHECK(found.size() >= 1);
             CHECK(found.size() <= 3);
+            const Judge judge(scene.mesh);
             for (const Patch& patch : found) {
+                CHECK(scene.after(patch).score.loss - scene.state.score.loss >=
+                      least_loss_of_removing_chart(judge, scene.state, c));
                 CHECK(facets_of(patch) == chart);
                 for (const Label l : labels_of(patch)) CHECK(allowed.count(l) == 1);
                 CHECK_FALSE(scene.after(patch).labels == scene.state.labels);
@@ -703,6 +706,23 @@ TEST_CASE("validity operators: removal relabels the chart alone, with labels of 
             for (std::size_t i = 1; i < found.size(); i++) CHECK_FALSE(same({found[i]}, {found[i - 1]}));
         }
     }
+}
+
+TEST_CASE("validity operators: no removal costs less than it is said to cost at least") {
+    for (const Scene& scene : patchy_scenes(3)) {
+        const Judge judge(scene.mesh);
+        for (Index b = 0; b < static_cast<Index>(scene.state.graph.boundaries.size()); b++) {
+            const std::int64_t least = least_loss_of_removing_around(judge, scene.state, b);
+            for (const Patch& patch : remove_charts_around_boundary(scene.mesh, scene.state, b))
+                CHECK(scene.after(patch).score.loss - scene.state.score.loss >= least);
+        }
+    }
+    // By hand: a facet of a cube with the opposite label, fidelity 0, may take its own again, fidelity 1.
+    const TriMesh mesh = build_mesh(cube(1));
+    Labeling labels = naive_labeling(mesh);
+    labels[0] ^= 1;
+    const State state = Judge(mesh).state(labels);
+    CHECK(least_loss_of_removing_chart(Judge(mesh), state, state.graph.chart[0]) == -1000000);
 }
 
 TEST_CASE("validity operators: charts at an invalid boundary are removed left, right and both") {

@@ -39,9 +39,11 @@ public:
         begin(labels, graph, turning, patch);
         return finish();
     }
-    // The same in two halves, the first of which is quick: it finds the feature edges that are lost, and changes().
+    // The same in two halves, the first of which is quick: it finds the feature edges that are lost, and changes(). The second
+    // gives up once more than `most_invalid` more elements are sure to be invalid: then it returns that, and the rest is not
+    // right.
     Index begin(const Labeling& labels, const LabelingGraph& graph, const TurningPoints& turning, const Patch& patch);
-    Effect finish();
+    Effect finish(Index most_invalid = std::numeric_limits<Index>::max());
     // Of the last patch: what differs from the labels it was to change, each facet once.
     const Patch& changes() const { return changes_; }
 
@@ -49,13 +51,15 @@ private:
     void note_changes(const Patch& patch);
     void find_zone();
     void count_features();
+    void leave_old_charts();
+    void leave_old_boundaries();
+    void judge_corners();
     void join_pieces();
     void search_cut_chart(Index chart);
     void trace_boundaries();
     void trace(Index h);
-    void leave_old_boundaries();
     void judge_charts();
-    void judge_corners();
+    void count_turns();
 
     Label label(Index f) const { return new_label_[f] == kNoLabel ? (*labels_)[f] : new_label_[f]; }
     bool is_border(Index h) const { return label(mesh_.left(h)) != label(mesh_.right(h)); }
@@ -88,8 +92,14 @@ private:
     std::vector<Index> rest_;         // by old chart: the piece of its facets that have none
     Marks met_boundary_, traced_, met_vertex_, invalid_vertex_;
 
-    std::vector<Index> path_;   // memory of trace()
-    std::vector<int> axes_;     // of judge_corners()
+    struct Traced {   // a new boundary that can turn
+        Range path;   // in paths_
+        int axis;
+        bool closed;
+    };
+    std::vector<Index> paths_;   // the half-edges of the boundaries traced
+    std::vector<Traced> new_boundaries_;
+    std::vector<int> axes_;   // memory of judge_corners()
 };
 
 }   // namespace polylab

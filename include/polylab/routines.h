@@ -19,8 +19,8 @@ struct Step {
     bool in_sequence = false;   // part of a sequence that may be given up as a whole
     bool kept = false;
     Index proposals = 0;   // how many variants were tried
-    Index facets = 0;      // of the best one that was not too costly to be judged: how many facets it relabels; 0 if all were
-    Score before, after;   // after: of that one, kept or not
+    Index facets = 0;      // how many of them the one that is kept relabels; 0 if none is
+    Score before, after;   // the same if none is
 };
 
 struct RoutineOptions {

@@ -48,9 +48,11 @@ public:
 
     const TriMesh& mesh() const { return mesh_; }
     State state(Labeling labels) const;
-    // The score that `state` would have with the patch applied, at the price of what the patch changes. Where the loss would be
-    // more than `most_loss`, which is quick to see, only the loss is right: the rest is kUnknown, worse than any.
-    Score score(const State& state, const Patch& patch, std::int64_t most_loss = kAnyLoss);
+    // The score that `state` would have with the patch applied, at the price of what the patch changes.
+    Score score(const State& state, const Patch& patch) { return score(state, patch, kAnyLoss, kUnknown); }
+    // The same where it is of interest only if neither the loss nor the number of invalid elements becomes more than this, which
+    // is quicker to see: if not, only the loss is right, and the rest is kUnknown, worse than any.
+    Score score(const State& state, const Patch& patch, std::int64_t most_loss, Index most_invalid);
     // How many charts the patch scored last would add.
     Index added_charts() const { return effect_.charts; }
     // Makes `state` that of its labels with the patch applied. At the price of update_graph()
