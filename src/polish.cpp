@@ -12,7 +12,6 @@ namespace {
 constexpr double kDataScale = 500;              // times 1 - cosine; an edge costs up to 100 at compactness 1
 constexpr int kBandRings[] = {0, 1, 3};         // of facets around those beside a boundary, each time added to those before
 constexpr int kBandCompactness[] = {0, 3};      // 0: every facet by itself; the score refuses what is too ragged
-constexpr double kAway = -0.4;                  // cosine of normal and label, fidelity 0.3: the facet points away from its label
 constexpr Index kMostPolishProposals = 20000;   // as in the routines; parts need up to 3000
 
 // Where i stands in a sorted list, or kNone.

@@ -19,7 +19,8 @@ Judge::Judge(const TriMesh& mesh, bool allow_opposite, Labeling locks)
 }
 
 std::int64_t Judge::loss(Index f, Label l) const {
-    return static_cast<std::int32_t>(kLossUnit * (1 - along(mesh_.normal[f], l)) / 2 + 0.5);
+    const double cosine = along(mesh_.normal[f], l);
+    return static_cast<std::int32_t>(kLossUnit * ((1 - cosine) / 2 + (cosine < kAway ? kAwayLoss : 0)) + 0.5);
 }
 
 // Of a labeling with so many invalid elements and so many charts.

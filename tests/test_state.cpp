@@ -16,7 +16,7 @@ using shapes::Lcg;
 
 namespace {
 
-constexpr Label kX = 0, kY = 2, kZ = 4, kNegZ = 5;
+constexpr Label kX = 0, kY = 2, kNegY = 3, kZ = 4, kNegZ = 5;
 
 // The two facets of the square [x,x+1] x [y,y+1] of the upper face of cube(n), relabeled.
 Patch square(Index n, Index x, Index y, Label label) {
@@ -81,9 +81,10 @@ TEST_CASE("state: the score of a cube with a patch, by hand") {
     // One closed boundary around the patch: it has too few. Two facets at 90 degrees lose half of their fidelity each.
     // Turning back once around a square would cost 2 x 60, the one edge that goes back costs 46.
     check_score(state_of(mesh, square(3, 1, 1, kX)).score, 1, 0, 1000000);
-    // The opposite label loses all; its boundary is flat, and invalid only where opposite labels never may meet.
-    check_score(state_of(mesh, square(3, 1, 1, kNegZ)).score, 1, 0, 2000000);
-    check_score(state_of(mesh, square(3, 1, 1, kNegZ), false).score, 2, 0, 2000000);
+    // The opposite label loses all, and ten times as much for pointing away; its boundary is flat, and invalid only where
+    // opposite labels never may meet.
+    check_score(state_of(mesh, square(3, 1, 1, kNegZ)).score, 1, 0, 22000000);
+    check_score(state_of(mesh, square(3, 1, 1, kNegZ), false).score, 2, 0, 22000000);
 }
 
 TEST_CASE("state: a bay has a turning-point") {
@@ -117,10 +118,19 @@ TEST_CASE("state: a facet without area loses half") {
 
 TEST_CASE("state: lost feature edges weigh half of what all fidelity weighs") {
     // 12 facets, 12 feature edges: each is worth half a facet. One label everywhere: 8 facets lose half of their fidelity, 2
-    // all of it; all edges are lost.
+    // all of it and point away; all edges are lost.
     const TriMesh mesh = build_mesh(shapes::creased(cube(1)));
-    CHECK(Judge(mesh).state(Labeling(12, kZ)).score.loss == 8 * 500000 + 2 * 1000000 + 12 * 500000);
-    CHECK(Judge(build_mesh(cube(1))).state(Labeling(12, kZ)).score.loss == 6000000);
+    CHECK(Judge(mesh).state(Labeling(12, kZ)).score.loss == 8 * 500000 + 2 * 11000000 + 12 * 500000);
+    CHECK(Judge(build_mesh(cube(1))).state(Labeling(12, kZ)).score.loss == 26000000);
+}
+
+TEST_CASE("state: a facet points away from its label below a fidelity of 0.3") {
+    // The slanted facets of the prism have normals (4, 3, 0) / 5 and (3, 4, 0) / 5: fidelity 0.2 and 0.1 for -Y; with
+    // (8, 3, 0) / sqrt(73) it is 0.3244.
+    const auto loss = [](int a, int b) { return Judge(build_mesh(shapes::triangular_prism(a, b, 1))).loss(2, kNegY); };
+    CHECK(loss(3, 4) == 800000 + 10000000);
+    CHECK(loss(4, 3) == 900000 + 10000000);
+    CHECK(loss(3, 8) == 675562);
 }
 
 TEST_CASE("state: each chart that a component lacks of six counts three times") {
@@ -141,7 +151,8 @@ TEST_CASE("state: a face that joins its neighbour loses the edges between them")
 }
 
 TEST_CASE("state: the loss is what the statistics say") {
-    // mean of (1 - fidelity) + half of the share of lost edges, times facets, up to rounding by one per facet and edge
+    // (mean of (1 - fidelity) + half of the share of lost edges) times facets + 10 for each that points away, up to rounding by
+    // one per facet and edge
     Lcg random(11);
     for (const MeshData& data :
          {shapes::creased(shapes::triangular_prism(2, 5, 3)), shapes::creased(shapes::pyramid(5)), shapes::creased(cube(2))}) {
@@ -149,7 +160,9 @@ TEST_CASE("state: the loss is what the statistics say") {
         const State state = Judge(mesh).state(with(naive_labeling(mesh), random_patch(mesh.facets(), random)));
         const Statistics s = statistics(mesh, state.labels, state.graph);
         const double lost = double(s.features_lost) / (s.features_lost + s.features_preserved);
-        const double expected = ((1 - s.fidelity_avg) + 0.5 * lost) * 1e6 * s.facets;
+        Index away = 0;
+        for (Index f = 0; f < mesh.facets(); f++) away += (1 + along(mesh.normal[f], state.labels[f])) / 2 < 0.3;
+        const double expected = ((1 - s.fidelity_avg + 0.5 * lost) * s.facets + 10 * away) * 1e6;
         CHECK(std::abs(static_cast<double>(state.score.loss) - expected) <= s.facets + mesh.features_kept);
         CHECK(state.score.invalid == s.invalid() + 3 * std::max(0, 6 - s.charts));
         CHECK(state.score.turning_points == s.own_turning_points);

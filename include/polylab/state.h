@@ -31,9 +31,13 @@ struct State {
     Score score;
 };
 
+// A facet points away from its label where the cosine of normal and label is below this (fidelity 0.3): no mesher can use it.
+inline constexpr double kAway = -0.4;
+inline constexpr double kAwayLoss = 10;   // of such a facet, beyond its fidelity: more than the feature edges around it are worth
+
 // Derives states from labelings. The loss is the mean of (1 - fidelity) plus kLostWeight times the share of the kept
 // feature edges that are lost, in integers: a labeling may lose 1 % of the feature edges for 0.005 of mean fidelity.
-// Neither extreme is right: a part can keep every edge by labels that point away from their facets.
+// Neither extreme is right: a part can keep every edge by labels that fit badly. Facets that point away cost extra.
 inline constexpr double kLostWeight = 0.5;
 inline constexpr double kLossUnit = 1e6;   // the loss of a facet whose fidelity is 0
 
@@ -57,7 +61,7 @@ public:
     Index added_charts() const { return effect_.charts; }
     // Makes `state` that of its labels with the patch applied. At the price of update_graph()
     void apply(State& state, const Patch& patch);
-    std::int64_t loss(Index f, Label l) const;                            // kLossUnit (1 - fidelity)
+    std::int64_t loss(Index f, Label l) const;                            // kLossUnit (1 - fidelity), and kAwayLoss more
     std::int64_t loss_per_feature() const { return loss_per_feature_; }   // of each that is lost
 
 private:
