@@ -173,8 +173,8 @@ private:
         finish(step);
     }
 
-    // The connected facets around f that point away from their label take another one, alone or with one or two of the facets
-    // that touch them: which one, and with which, is tried.
+    // The connected facets around f that point away from their label take another one, alone, with one or two of the facets
+    // that touch them, or with all of these up to two rings: which one, and with which, is tried.
     void turn(Index f) {
         std::vector<Index> away = {f};
         in_.clear(mesh_.facets());
@@ -183,29 +183,45 @@ private:
             for (Index h = 3 * away[i]; h < 3 * away[i] + 3; h++)
                 if (points_away(mesh_.right(h)) && in_.insert(mesh_.right(h))) away.push_back(mesh_.right(h));
         for (const Index g : away) turned_.insert(g);
-        begin_band(away);
-        widen_band(1);
-        const std::vector<Index>& around = band_;   // behind those of `away`
         Step step{"turn-facets", f, false, false, 0, 0, state_.score, state_.score};
         Patch best;
-        Score best_score = state_.score;
+        const auto try_facets = [&](const std::vector<Index>& facets) {
+            for (Label l = 0; l < kLabels && !over(); l++) {
+                const Score found = score(relabel(facets, l), step.after);
+                step.proposals++;
+                proposals_tried_++;
+                if (!(found < step.after) || judge_.added_charts() > 0) continue;
+                step.after = found;
+                best = relabel(facets, l);
+            }
+        };
+        begin_band(away);
+        widen_band(1);
+        const std::vector<Index> around = band_;   // behind those of `away`
         const std::size_t none = away.size() - 1;
         for (std::size_t i = none; i < around.size(); i++) {
-            for (std::size_t k = none; k < std::max(i, none + 1) && !over(); k++) {
+            for (std::size_t k = none; k < std::max(i, none + 1); k++) {
                 std::vector<Index> facets = away;
                 if (i > none) facets.push_back(around[i]);
                 if (k > none) facets.push_back(around[k]);
-                for (Label l = 0; l < kLabels; l++) {
-                    const Score found = score(relabel(facets, l), best_score);
-                    step.proposals++;
-                    proposals_tried_++;
-                    if (!(found < best_score)) continue;
-                    best_score = found;
-                    best = relabel(facets, l);
-                }
+                try_facets(facets);
             }
         }
-        if (!best.empty()) attempt(best, step);
+        begin_band(away);
+        std::vector<Index> beside = away;   // and those that share an edge with them
+        for (const Index g : away)
+            for (Index h = 3 * g; h < 3 * g + 3; h++)
+                if (in_.insert(mesh_.right(h))) beside.push_back(mesh_.right(h));
+        try_facets(beside);
+        try_facets(around);
+        begin_band(around);
+        widen_band(1);
+        try_facets(band_);
+        if (!best.empty()) {
+            judge_.apply(state_, best);
+            step.kept = true;
+            step.facets = static_cast<Index>(best.size());
+        }
         finish(step);
     }
 
