@@ -121,26 +121,18 @@ void Expansion::collect_core() {
 }
 
 void Expansion::solve_core(const Labeling& labels) {
-    core_ends_.clear();
-    core_capacity_.clear();
     const auto nodes = static_cast<Index>(core_.size());
+    network_.reset(nodes);
     for (Index k = 0; k < nodes; k++) {
-        const Index i = core_[k];
+        const Index i = core_[k], excess = sites_[i].excess;
+        network_.add_terminals(k, std::max(excess, 0), std::max(-excess, 0));
         for (const PottsEnergy::Arc& arc : energy_.arcs[i]) {
             const Site& other = sites_[arc.site];
             if (other.choice != Choice::in_core || other.node <= k || arc.weight == 0) continue;
-            core_ends_.push_back(k);
-            core_ends_.push_back(other.node);
-            core_capacity_.push_back(capacity(arc.weight, labels[i], labels[arc.site]));
+            const Index c = capacity(arc.weight, labels[i], labels[arc.site]);
+            network_.connect(k, other.node, c, c);
         }
     }
-    network_.reset(nodes, core_ends_);
-    for (Index k = 0; k < nodes; k++) {
-        const Index excess = sites_[core_[k]].excess;
-        network_.add_terminals(k, std::max(excess, 0), std::max(-excess, 0));
-    }
-    for (Index e = 0; e < static_cast<Index>(core_capacity_.size()); e++)
-        network_.add_edge_capacity(e, core_capacity_[e], core_capacity_[e]);
     network_.solve();
     for (Index k = 0; k < nodes; k++) sites_[core_[k]].choice = network_.on_source_side(k) ? Choice::takes : Choice::keeps;
 }

@@ -14,44 +14,29 @@ constexpr Index kFar = std::numeric_limits<Index>::max();
 
 }   // namespace
 
-void MaxFlow::reset(Index nodes, const std::vector<Index>& ends) {
-    const Index arcs = static_cast<Index>(ends.size());
-    // first_[i + 2] counts the arcs of i, then first_[i + 1] is the place for its next arc, and in the end where they end.
-    first_.assign(nodes + 2, 0);
-    for (const Index node : ends) first_[node + 2]++;
-    for (Index i = 2; i < nodes + 2; i++) first_[i] += first_[i - 1];
-    arcs_.resize(arcs);
-    arc_of_edge_.resize(arcs);
-    for (Index e = 0; e < arcs; e += 2) {
-        assert(ends[e] != ends[e + 1]);
-        const Index there = first_[ends[e] + 1]++, back = first_[ends[e + 1] + 1]++;
-        arcs_[there] = {ends[e + 1], back, 0, 0};
-        arcs_[back] = {ends[e], there, 0, 0};
-        arc_of_edge_[e] = there;
-        arc_of_edge_[e + 1] = back;
-    }
-    nodes_.resize(nodes);
+void MaxFlow::reset(Index nodes) {
+    arcs_.resize(3 * static_cast<std::size_t>(nodes));
+    for (Index arc = 0; arc < 3 * nodes; arc++) arcs_[arc] = {arc / 3, arc, 0, 0};
+    nodes_.assign(nodes, Node{});
     active_.resize(nodes);
     level_.resize(nodes);
-    clear();
-}
-
-void MaxFlow::clear() {
-    for (Arc& arc : arcs_) arc.residual = arc.back = 0;
-    std::fill(nodes_.begin(), nodes_.end(), Node{});
     active_begin_ = active_count_ = 0;
     orphans_.clear();
     augmentations_ = 0;
     flow_ = 0;
 }
 
-void MaxFlow::add_edge_capacity(Index e, Index there, Index back) {
-    assert(there >= 0 && back >= 0);
-    Arc &arc = arcs_[arc_of_edge_[2 * e]], &sister = arcs_[arc.sister];
-    arc.residual += there;
-    arc.back += back;
-    sister.residual += back;
-    sister.back += there;
+void MaxFlow::connect(Index a, Index b, Index there, Index back) {
+    assert(a != b && there >= 0 && back >= 0);
+    const auto free_arc = [&](Index node) {
+        Index arc = 3 * node;
+        while (arcs_[arc].head != node) arc++;
+        assert(arc < 3 * node + 3);
+        return arc;
+    };
+    const Index arc = free_arc(a), sister = free_arc(b);
+    arcs_[arc] = {b, sister, there, back};
+    arcs_[sister] = {a, arc, back, there};
 }
 
 void MaxFlow::add_terminals(Index node, Index from_source, Index to_sink) {
@@ -77,7 +62,7 @@ std::int64_t MaxFlow::sweep() {
     for (std::size_t k = active_count_; k-- > 0;) {
         const Index i = active_[k], nearer = level_[i] - 1;
         Node& node = nodes_[i];
-        for (Index arc = first_[i]; arc < first_[i + 1] && sign * node.terminal > 0; arc++) {
+        for (Index arc = 3 * i; arc < 3 * i + 3 && sign * node.terminal > 0; arc++) {
             if (level_[arcs_[arc].head] != nearer || nearer < 0) continue;
             Node& other = nodes_[arcs_[arc].head];
             const auto amount = static_cast<Index>(std::min<std::int64_t>(sign * node.terminal, from_root(arc, kFrom)));
@@ -108,7 +93,7 @@ bool MaxFlow::find_levels(bool all) {
     }
     for (std::size_t k = 0; k < active_count_ && waiting > 0; k++) {
         const Index near = active_[k], level = level_[near] + 1;
-        for (Index arc = first_[near]; arc < first_[near + 1]; arc++) {
+        for (Index arc = 3 * near; arc < 3 * near + 3; arc++) {
             const Index other = arcs_[arc].head;
             if (level_[other] != kNone || toward_root(arc, kFrom) == 0) continue;
             level_[other] = level;
@@ -149,7 +134,7 @@ std::int64_t MaxFlow::solve() {
         active_begin_ = active_begin_ + 1 == active_.size() ? 0 : active_begin_ + 1;
         active_count_--;
         nodes_[node].queued = false;
-        for (Index arc = first_[node]; arc < first_[node + 1] && nodes_[node].tree != Tree::none;) {
+        for (Index arc = 3 * node; arc < 3 * node + 3 && nodes_[node].tree != Tree::none;) {
             if (!join_or_meet(node, arc)) {
                 arc++;
                 continue;
@@ -236,7 +221,7 @@ void MaxFlow::augment(Index arc) {
 void MaxFlow::adopt(Index node) {
     const Tree tree = nodes_[node].tree;
     Index best = kNone, best_distance = kFar;
-    for (Index arc = first_[node]; arc < first_[node + 1]; arc++) {
+    for (Index arc = 3 * node; arc < 3 * node + 3; arc++) {
         const Index other = arcs_[arc].head;
         if (nodes_[other].tree != tree || toward_root(arc, tree) == 0) continue;
         const Index distance = distance_to_root(other);
@@ -251,7 +236,7 @@ void MaxFlow::adopt(Index node) {
         nodes_[node].distance = best_distance + 1;
         return;
     }
-    for (Index arc = first_[node]; arc < first_[node + 1]; arc++) {
+    for (Index arc = 3 * node; arc < 3 * node + 3; arc++) {
         const Index other = arcs_[arc].head;
         if (nodes_[other].tree != tree) continue;
         if (toward_root(arc, tree) > 0) activate(other);   // it could have had this node as a child

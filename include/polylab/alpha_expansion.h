@@ -68,7 +68,6 @@ private:
     std::vector<Site> sites_;
     std::vector<Index> queue_;                       // decided sites, whose neighbours have to be told
     std::vector<Index> core_;                        // the sites that max-flow decides
-    std::vector<Index> core_ends_, core_capacity_;   // its edges
     MaxFlow network_;
 };
 

@@ -17,23 +17,18 @@
 
 namespace polylab {
 
+// Nodes are facets, so each has three edges at most: they have fixed places, and nothing is sorted or looked up.
 class MaxFlow {
 public:
-    // A graph of n nodes and undirected edges (ends[2e], ends[2e+1]), all without capacity. O(nodes + edges)
-    MaxFlow(Index nodes, const std::vector<Index>& ends) { reset(nodes, ends); }
-    MaxFlow() { reset(0, {}); }
-
-    // Another graph in the memory of this one.
-    void reset(Index nodes, const std::vector<Index>& ends);
+    // A graph of n nodes without edges. O(n)
+    explicit MaxFlow(Index nodes = 0) { reset(nodes); }
+    // The same in the memory of this one.
+    void reset(Index nodes);
 
     Index nodes() const { return static_cast<Index>(nodes_.size()); }
-    Index edges() const { return static_cast<Index>(arc_of_edge_.size()) / 2; }
 
-    // All capacities and the flow back to zero; the graph stays.
-    void clear();
-
-    // Adds capacity to edge e: `there` from its first end to its second, `back` the other way. Not negative.
-    void add_edge_capacity(Index e, Index there, Index back);
+    // Adds an edge with capacity `there` from a to b, and `back` from b to a, not negative. Each has two edges at most so far.
+    void connect(Index a, Index b, Index there, Index back);
 
     // Adds the arcs source -> node and node -> sink. Not negative.
     void add_terminals(Index node, Index from_source, Index to_sink);
@@ -64,7 +59,7 @@ private:
     void make_orphan(Index node);
 
     struct Arc {
-        Index head;       // the node it points to
+        Index head;       // the node it points to; its own where a node has fewer edges
         Index sister;     // the reverse arc
         Index residual;   // capacity left
         Index back;       // that of the sister, kept here too: searches go both ways, and need not look there
@@ -79,9 +74,7 @@ private:
     };
     static constexpr Index kApart = -2;   // level of a node that is apart
 
-    std::vector<Index> first_;   // the arcs of node i are first_[i] .. first_[i+1] - 1
-    std::vector<Arc> arcs_;
-    std::vector<Index> arc_of_edge_;   // edge -> its two arcs, there and back
+    std::vector<Arc> arcs_;   // those of node i are 3i, 3i + 1, 3i + 2
     std::vector<Node> nodes_;
 
     std::vector<Index> level_;    // node -> number of arcs to the nearest terminal that a sweep goes to, kNone, or kApart
