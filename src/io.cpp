@@ -59,7 +59,10 @@ private:
     // `7`, `7/1`, `7//2`, `7/1/2`; -1 is the vertex read last. Vertices may follow the facets that use them.
     Index read_index(std::string_view token) {
         if (!token.empty() && token[0] == '/') in_.fail("a vertex index", token);
-        const Index i = in_.to_integer(token.substr(0, token.find('/')), "a vertex index");
+        return vertex(in_.to_integer(token.substr(0, token.find('/')), "a vertex index"));
+    }
+
+    Index vertex(Index i) {
         if (i == 0 || i < -vertices()) throw InputError(in_.file(), in_.line(), range(i));
         const Index v = i > 0 ? i - 1 : vertices() + i;
         if (v > largest_) {
@@ -70,7 +73,10 @@ private:
     }
 
     void read_facet() {
-        for (int k = 0; k < 3; k++) data_.triangles.push_back(read_index(in_.token_in_line()));
+        for (int k = 0; k < 3; k++) {
+            const Index i = in_.plain_index_in_line();
+            data_.triangles.push_back(i != kNone ? vertex(i) : read_index(in_.token_in_line()));
+        }
         if (!in_.token_in_line().empty())
             throw InputError(in_.file(), in_.line(),
                              "expected a triangle, found a polygon with more than three sides (triangulate the surface first)");

@@ -36,6 +36,8 @@ public:
     // Next token of the file, or of the current line; empty at its end.
     std::string_view token();
     std::string_view token_in_line();
+    // The next token of the line, if it is digits only, nine at most, as nearly all indices are; else kNone, and it stays.
+    Index plain_index_in_line();
     // Steps over the rest of the line; false at the end of the file.
     bool next_line();
 
