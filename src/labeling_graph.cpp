@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 
 namespace polylab {
@@ -14,170 +13,162 @@ namespace {
 constexpr double kFlat = 1e-9;   // sine of the angle below which an edge counts as flat
 constexpr Index kBorder = -2;    // boundary[h] of a border that is not traced yet
 
-// Builds the graph phase by phase: charts and borders anew or from those that were, then the rest along the borders.
+// Builds the graph phase by phase, from scratch or from the one before a change, of which boundaries stay.
 class Builder {
 public:
     Builder(const TriMesh& mesh, const Labeling& labels, LabelingGraph& graph) : mesh_(mesh), labels_(labels), g_(graph) {}
 
     void build() {
-        g_.charts.clear();
         g_.chart.assign(mesh_.facets(), kNone);
         g_.boundary.assign(mesh_.halfedges(), kNone);
         g_.corner.assign(mesh_.vertices(), kNone);
-        g_.borders.clear();
-        for (Index h = 0; h < mesh_.halfedges(); h++)
-            if (is_border(h)) g_.borders.push_back(h);
+        for (Index h = 0; h < mesh_.halfedges(); h++) {
+            if (!is_border(h)) continue;
+            loosen(h);
+            g_.corner[mesh_.from(h)]++;   // from kNone = -1: three borders make 2
+        }
         find_charts();
-        build_along_borders();
+        std::vector<Index> vertices;
+        for (Index v = 0; v < mesh_.vertices(); v++) {
+            if (g_.corner[v] >= 2) vertices.push_back(v);
+            g_.corner[v] = kNone;
+        }
+        build_along_borders(vertices);
     }
 
-    void update(const std::vector<Index>& changed) {
-        for (const Index h : g_.borders) {
-            g_.boundary[h] = kNone;
-            g_.corner[mesh_.from(h)] = kNone;
+    void update(const GraphChange& change) {
+        std::vector<Index> vertices;   // corners are where corners were, or where something changes
+        for (const Corner& corner : g_.corners) {
+            g_.corner[corner.vertex] = kNone;
+            vertices.push_back(corner.vertex);
         }
-        update_charts(changed);
-        update_borders(changed);
-        build_along_borders();
+        for (const Index fan : change.fans) vertices.push_back(mesh_.from(fan));
+        std::sort(vertices.begin(), vertices.end());   // tie: equal numbers, of which one is kept
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        part_boundaries(change);
+        number_charts(change);
+        build_along_borders(vertices);
     }
 
 private:
     bool is_border(Index h) const { return labels_[mesh_.left(h)] != labels_[mesh_.right(h)]; }
 
-    void build_along_borders() {
-        g_.boundaries.clear();
-        g_.corners.clear();
-        g_.rings.clear();
-        g_.halfedges.clear();
-        g_.chart_boundaries.clear();
-        g_.ring_halfedges.clear();
-        g_.invalid_charts = g_.invalid_boundaries = g_.invalid_corners = 0;
-        for (const Index h : g_.borders) g_.boundary[h] = kBorder;
-        find_rings();
-        number_corners();
-        trace_boundaries();
-        list_chart_boundaries();
-        judge();
+    // A border whose boundary is to be traced.
+    void loosen(Index h) {
+        g_.boundary[h] = kBorder;
+        loose_.push_back(h);
     }
+
+    void build_along_borders(const std::vector<Index>& vertices) {
+        g_.invalid_charts = g_.invalid_boundaries = g_.invalid_corners = 0;
+        find_corners(vertices);
+        list_boundaries();
+        list_chart_boundaries();
+        judge_charts();
+        judge_corners();
+    }
+
+    // ---- charts
 
     // Charts are numbered by their smallest facet, since each is flooded from the smallest facet that has no chart yet.
     void find_charts() {
-        for (Index f = 0; f < mesh_.facets(); f++)
-            if (g_.chart[f] == kNone) flood(f, 0);
-    }
-
-    // A new chart. Its facets get its number plus `shift`.
-    void flood(Index seed, Index shift) {
-        const Index number = static_cast<Index>(g_.charts.size()) + shift;
-        Chart chart;
-        chart.label = labels_[seed];
-        chart.smallest_facet = seed;
-        g_.chart[seed] = number;
-        stack_.assign(1, seed);
-        while (!stack_.empty()) {
-            const Index f = stack_.back();
-            stack_.pop_back();
-            chart.facets++;
-            for (Index h = 3 * f; h < 3 * f + 3; h++) {
-                const Index other = mesh_.right(h);
-                if (labels_[other] != chart.label || g_.chart[other] == number) continue;
-                g_.chart[other] = number;
-                stack_.push_back(other);
+        std::vector<Index> stack;
+        for (Index seed = 0; seed < mesh_.facets(); seed++) {
+            if (g_.chart[seed] != kNone) continue;
+            const Index c = new_chart(seed);
+            g_.chart[seed] = c;
+            stack.push_back(seed);
+            while (!stack.empty()) {
+                const Index f = stack.back();
+                stack.pop_back();
+                g_.charts[c].facets++;
+                for (Index h = 3 * f; h < 3 * f + 3; h++) {
+                    const Index other = mesh_.right(h);
+                    if (labels_[other] != labels_[seed] || g_.chart[other] == c) continue;
+                    g_.chart[other] = c;
+                    stack.push_back(other);
+                }
             }
         }
-        g_.charts.push_back(chart);
     }
 
-    // Charts that lose or gain facets are flooded anew, the others get new numbers. While old and new numbers stand side by
-    // side, the new ones of flooded charts are shifted beyond the old ones.
-    void update_charts(const std::vector<Index>& changed) {
-        const std::vector<Chart> old = std::move(g_.charts);
+    void number_charts(const GraphChange& change) {
+        if (change.same_charts) {
+            for (std::size_t i = 0; i < change.facets.size(); i++) {
+                Index& c = g_.chart[change.facets[i]];
+                g_.charts[c].facets--;
+                c = change.to[i];
+                g_.charts[c].facets++;
+            }
+            for (Chart& chart : g_.charts) chart.boundaries = {};
+            return;
+        }
         g_.charts.clear();
-        const Index shift = static_cast<Index>(old.size());
-        std::vector<char> is_new(old.size(), 0);
-        for (const Index f : changed) {
-            is_new[g_.chart[f]] = 1;
-            for (Index h = 3 * f; h < 3 * f + 3; h++)
-                if (!is_border(h)) is_new[g_.chart[mesh_.right(h)]] = 1;
-        }
-        std::vector<Index> number(old.size(), kNone);
+        std::vector<Index> number(change.most_chart + 1, kNone), facets(change.most_chart + 1, 0);
         for (Index f = 0; f < mesh_.facets(); f++) {
-            Index& c = g_.chart[f];
-            if (c < shift && is_new[c]) {
-                flood(f, shift);
-            } else if (c < shift && number[c] == kNone) {
-                number[c] = static_cast<Index>(g_.charts.size());
-                g_.charts.push_back(old[c]);
-                g_.charts.back().boundaries = {};
-            }
-            c = c < shift ? number[c] : c - shift;
+            const Index key = change.charts[f];
+            facets[key]++;
+            if (number[key] == kNone) number[key] = new_chart(f);
+            g_.chart[f] = number[key];
         }
+        for (std::size_t key = 0; key < number.size(); key++)
+            if (number[key] != kNone) g_.charts[number[key]].facets = facets[key];
     }
 
-    void update_borders(const std::vector<Index>& changed) {
-        std::vector<Index> near, kept;
-        for (const Index f : changed)
-            for (Index h = 3 * f; h < 3 * f + 3; h++) near.insert(near.end(), {h, mesh_.opposite[h]});
-        std::sort(near.begin(), near.end());   // tie: equal numbers, of which one is kept
-        near.erase(std::unique(near.begin(), near.end()), near.end());
-        std::set_difference(g_.borders.begin(), g_.borders.end(), near.begin(), near.end(), std::back_inserter(kept));
-        near.erase(std::remove_if(near.begin(), near.end(), [&](Index h) { return !is_border(h); }), near.end());
-        g_.borders.clear();
-        std::merge(kept.begin(), kept.end(), near.begin(), near.end(), std::back_inserter(g_.borders));
+    Index new_chart(Index smallest_facet) {
+        Chart chart;
+        chart.label = labels_[smallest_facet];
+        chart.smallest_facet = smallest_facet;
+        g_.charts.push_back(chart);
+        return static_cast<Index>(g_.charts.size()) - 1;
     }
 
-    // Rings of the vertices with three and more border half-edges; g_.corner holds their number meanwhile. Most vertices
-    // on a border have two, and need no look around. Two solids touching there may each have two: no corner either.
-    void find_rings() {
-        for (const Index h : g_.borders) g_.corner[mesh_.from(h)]++;   // from kNone = -1: two borders make 1
-        for (const Index h : g_.borders) {
-            if (g_.corner[mesh_.from(h)] + 1 < 3) continue;
-            Ring ring;
-            ring.halfedges.first = static_cast<Index>(g_.ring_halfedges.size());
-            Index around = h;
-            do {
-                g_.ring_halfedges.push_back(around);
-                around = g_.next_border_ccw(mesh_, around);
-            } while (around > h);
-            ring.halfedges.last = static_cast<Index>(g_.ring_halfedges.size());
-            if (around == h && ring.halfedges.size() >= 3)   // else it is met from a smaller one, or no corner
-                g_.rings.push_back(ring);
-            else
-                g_.ring_halfedges.resize(ring.halfedges.first);
-        }
-    }
+    // ---- corners
 
-    Index ring_vertex(const Ring& ring) const { return mesh_.from(g_.ring_halfedges[ring.halfedges.first]); }
-
-    // Sorts the rings by vertex, and makes their vertices corners.
-    void number_corners() {
-        for (const Index h : g_.borders) g_.corner[mesh_.from(h)] = kNone;
-        std::sort(g_.rings.begin(), g_.rings.end(),
-                  [&](const Ring& a, const Ring& b) {   // tie: by smallest half-edge, all different
-                      const Index v = ring_vertex(a), w = ring_vertex(b);
-                      return v < w || (v == w && g_.ring_halfedges[a.halfedges.first] < g_.ring_halfedges[b.halfedges.first]);
-                  });
-        const std::vector<Index> found = std::move(g_.ring_halfedges);
+    // Among these vertices (increasing).
+    void find_corners(const std::vector<Index>& vertices) {
+        g_.corners.clear();
+        g_.rings.clear();
         g_.ring_halfedges.clear();
-        for (Index r = 0; r < static_cast<Index>(g_.rings.size()); r++) {
-            Ring& ring = g_.rings[r];
-            const Range old = ring.halfedges;
-            ring.halfedges.first = static_cast<Index>(g_.ring_halfedges.size());
-            g_.ring_halfedges.insert(g_.ring_halfedges.end(), found.begin() + old.first, found.begin() + old.last);
-            ring.halfedges.last = static_cast<Index>(g_.ring_halfedges.size());
-            const Index v = ring_vertex(ring);
-            if (g_.corner[v] == kNone) {
-                g_.corner[v] = static_cast<Index>(g_.corners.size());
-                Corner corner;
-                corner.vertex = v;
-                corner.rings = {r, r};
-                g_.corners.push_back(corner);
+        for (const Index v : vertices) {
+            Corner corner;
+            corner.vertex = v;
+            corner.rings.first = static_cast<Index>(g_.rings.size());
+            Index begin = static_cast<Index>(g_.ring_halfedges.size()), last = kNone;
+            mesh_.for_each_leaving(v, [&](Index h) {
+                if (last != kNone && mesh_.ccw(last) != h) begin = end_ring(begin);   // the next fan
+                if (is_border(h)) g_.ring_halfedges.push_back(h);
+                last = h;
+            });
+            end_ring(begin);
+            corner.rings.last = static_cast<Index>(g_.rings.size());
+            if (corner.rings.size() == 0) continue;
+            const auto first = g_.rings.begin() + corner.rings.first;
+            std::sort(first, g_.rings.end(), [&](const Ring& a, const Ring& b) {   // all different
+                return g_.ring_halfedges[a.halfedges.first] < g_.ring_halfedges[b.halfedges.first];
+            });
+            g_.corner[v] = static_cast<Index>(g_.corners.size());
+            for (auto ring = first; ring != g_.rings.end(); ++ring) {
+                ring->corner = g_.corner[v];
+                corner.valence += ring->halfedges.size();
             }
-            ring.corner = g_.corner[v];
-            Corner& corner = g_.corners[ring.corner];
-            corner.rings.last = r + 1;
-            corner.valence += ring.halfedges.size();
+            g_.corners.push_back(corner);
         }
+    }
+
+    // Makes a ring of the borders of a fan that were listed last, if they are enough. Returns where the next one begins.
+    Index end_ring(Index begin) {
+        const Index end = static_cast<Index>(g_.ring_halfedges.size());
+        if (end - begin < 3) {
+            g_.ring_halfedges.resize(begin);
+            return begin;
+        }
+        const auto first = g_.ring_halfedges.begin() + begin;
+        std::rotate(first, std::min_element(first, g_.ring_halfedges.end()), g_.ring_halfedges.end());
+        Ring ring;
+        ring.halfedges = {begin, end};
+        g_.rings.push_back(ring);
+        return end;
     }
 
     // The corner at which border h starts, or kNone where its fan has two borders only.
@@ -190,42 +181,107 @@ private:
         return kNone;
     }
 
-    // h is the smallest border half-edge of its boundary: walk back to the start, then forward.
-    void trace_boundaries() {
-        for (const Index h : g_.borders) {
-            if (g_.boundary[h] != kBorder) continue;
-            const Index b = static_cast<Index>(g_.boundaries.size());
-            Boundary boundary;
-            boundary.smallest = h;
-            Index first = h;
-            while (corner_at(first) == kNone) {
-                // The other border at this vertex arrives here with the same chart at its left.
-                const Index before = mesh_.opposite[g_.next_border_ccw(mesh_, first)];
-                if (before == h) {
-                    first = h;
-                    break;
-                }
-                first = before;
-            }
-            boundary.start = corner_at(first);
-            boundary.left = g_.chart[facet(h)];
-            boundary.right = g_.chart[mesh_.right(h)];
-            boundary.axis = boundary_axis(labels_[facet(h)], labels_[mesh_.right(h)]);
-            boundary.on_features = true;
-            boundary.halfedges.first = static_cast<Index>(g_.halfedges.size());
-            Index at = first;
+    // ---- boundaries
+
+    // Those that pass none of the fans stay, the borders of the others become loose, and so do new borders.
+    void part_boundaries(const GraphChange& change) {
+        std::vector<char> goes(g_.boundaries.size(), 0);
+        for (const Index fan : change.fans) {
+            Index h = fan;
             do {
-                g_.halfedges.push_back(at);
-                g_.boundary[at] = g_.boundary[mesh_.opposite[at]] = b;
-                boundary.on_features = boundary.on_features && mesh_.feature[at];
-                const Index back = mesh_.opposite[at];
-                boundary.end = corner_at(back);
-                if (boundary.end != kNone) break;
-                at = g_.next_border_ccw(mesh_, back);
-            } while (at != first);
-            boundary.halfedges.last = static_cast<Index>(g_.halfedges.size());
-            g_.boundaries.push_back(boundary);
+                if (g_.boundary[h] != kNone) goes[g_.boundary[h]] = 1;
+                h = mesh_.ccw(h);
+            } while (h != fan);
         }
+        for (std::size_t b = 0; b < g_.boundaries.size(); b++) {
+            if (!goes[b]) {
+                kept_.push_back(g_.boundaries[b]);
+                continue;
+            }
+            for (Index i = g_.boundaries[b].halfedges.first; i < g_.boundaries[b].halfedges.last; i++) {
+                loosen(g_.halfedges[i]);
+                loosen(mesh_.opposite[g_.halfedges[i]]);
+            }
+        }
+        for (const Index f : change.facets)
+            for (Index h = 3 * f; h < 3 * f + 3; h++)
+                for (const Index side : {h, mesh_.opposite[h]})
+                    if (!is_border(side))
+                        g_.boundary[side] = kNone;
+                    else if (g_.boundary[side] == kNone)
+                        loosen(side);
+        loose_.erase(std::remove_if(loose_.begin(), loose_.end(), [&](Index h) { return g_.boundary[h] == kNone; }),
+                     loose_.end());
+        std::sort(loose_.begin(), loose_.end());   // all different
+    }
+
+    // All boundaries by their smallest half-edges: those that stay are sorted like that, and of a new one the first loose
+    // border is the smallest.
+    void list_boundaries() {
+        const std::vector<Index> old_halfedges = std::move(g_.halfedges);
+        g_.halfedges.clear();
+        g_.boundaries.clear();
+        auto kept = kept_.begin();
+        for (const Index h : loose_) {
+            if (g_.boundary[h] != kBorder) continue;
+            for (; kept != kept_.end() && kept->smallest < h; ++kept) place(*kept, old_halfedges);
+            trace(h);
+        }
+        for (; kept != kept_.end(); ++kept) place(*kept, old_halfedges);
+        for (const Boundary& b : g_.boundaries) g_.invalid_boundaries += !b.valid;
+    }
+
+    void place(Boundary boundary, const std::vector<Index>& halfedges) {
+        const Range old = boundary.halfedges;
+        const Index first = halfedges[old.first], last = halfedges[old.last - 1];
+        boundary.halfedges.first = static_cast<Index>(g_.halfedges.size());
+        for (Index i = old.first; i < old.last; i++) add_halfedge(halfedges[i]);
+        boundary.halfedges.last = static_cast<Index>(g_.halfedges.size());
+        boundary.left = g_.chart[mesh_.left(first)];
+        boundary.right = g_.chart[mesh_.right(first)];
+        if (boundary.start != kNone) boundary.start = g_.corner[mesh_.from(first)];
+        if (boundary.end != kNone) boundary.end = g_.corner[mesh_.to(last)];
+        g_.boundaries.push_back(boundary);
+    }
+
+    void add_halfedge(Index h) {
+        g_.halfedges.push_back(h);
+        g_.boundary[h] = g_.boundary[mesh_.opposite[h]] = static_cast<Index>(g_.boundaries.size());
+    }
+
+    // h is the smallest border half-edge of its boundary: walk back to the start, then forward.
+    void trace(Index h) {
+        Boundary boundary;
+        boundary.smallest = h;
+        Index first = h;
+        while (corner_at(first) == kNone) {
+            // The other border at this vertex arrives here with the same chart at its left.
+            const Index before = mesh_.opposite[g_.next_border_ccw(mesh_, first)];
+            if (before == h) {
+                first = h;
+                break;
+            }
+            first = before;
+        }
+        boundary.start = corner_at(first);
+        boundary.left = g_.chart[facet(h)];
+        boundary.right = g_.chart[mesh_.right(h)];
+        boundary.axis = boundary_axis(labels_[facet(h)], labels_[mesh_.right(h)]);
+        boundary.on_features = true;
+        boundary.valid = boundary.axis != kNone || g_.allow_opposite;
+        boundary.halfedges.first = static_cast<Index>(g_.halfedges.size());
+        Index at = first;
+        do {
+            add_halfedge(at);
+            boundary.on_features = boundary.on_features && mesh_.feature[at];
+            if (boundary.valid && boundary.axis == kNone) boundary.valid = !is_convex(mesh_, at);
+            const Index back = mesh_.opposite[at];
+            boundary.end = corner_at(back);
+            if (boundary.end != kNone) break;
+            at = g_.next_border_ccw(mesh_, back);
+        } while (at != first);
+        boundary.halfedges.last = static_cast<Index>(g_.halfedges.size());
+        g_.boundaries.push_back(boundary);
     }
 
     void list_chart_boundaries() {
@@ -246,17 +302,16 @@ private:
         }
     }
 
-    void judge() {
+    // ---- validity
+
+    void judge_charts() {
         for (Chart& chart : g_.charts) {
             chart.valid = chart.boundaries.size() >= kLeastBoundaries;
             g_.invalid_charts += !chart.valid;
         }
-        for (Boundary& b : g_.boundaries) {
-            b.valid = b.axis != kNone || g_.allow_opposite;
-            for (Index i = b.halfedges.first; i < b.halfedges.last && b.valid && b.axis == kNone; i++)
-                b.valid = !is_convex(mesh_, g_.halfedges[i]);
-            g_.invalid_boundaries += !b.valid;
-        }
+    }
+
+    void judge_corners() {
         std::vector<int> axes;
         for (Corner& corner : g_.corners) {
             corner.valid = true;
@@ -275,7 +330,8 @@ private:
     const TriMesh& mesh_;
     const Labeling& labels_;
     LabelingGraph& g_;
-    std::vector<Index> stack_;
+    std::vector<Index> loose_;     // borders without boundary, increasing
+    std::vector<Boundary> kept_;   // boundaries that stay, with their old numbers
 };
 
 }   // namespace
@@ -299,8 +355,8 @@ LabelingGraph build_graph(const TriMesh& mesh, const Labeling& labels, bool allo
     return graph;
 }
 
-void update_graph(const TriMesh& mesh, const Labeling& labels, const std::vector<Index>& changed, LabelingGraph& graph) {
-    Builder(mesh, labels, graph).update(changed);
+void update_graph(const TriMesh& mesh, const Labeling& labels, const GraphChange& change, LabelingGraph& graph) {
+    Builder(mesh, labels, graph).update(change);
 }
 
 bool valid_ring(const std::vector<int>& axes, bool allow_opposite) {
@@ -392,9 +448,6 @@ void validate(const TriMesh& mesh, const Labeling& labels, const LabelingGraph& 
         borders += g.is_border(h);
     }
     require(borders == 2 * static_cast<Index>(g.halfedges.size()), "each border in one boundary", borders);
-    require(borders == static_cast<Index>(g.borders.size()), "number of borders", borders);
-    for (std::size_t i = 0; i < g.borders.size(); i++)
-        require(g.is_border(g.borders[i]) && (i == 0 || g.borders[i - 1] < g.borders[i]), "list of borders", i);
     last = kNone;
     for (std::size_t b = 0; b < g.boundaries.size(); b++) {
         const Boundary& boundary = g.boundaries[b];

@@ -30,6 +30,45 @@ Effect EffectFinder::finish(Index most_invalid) {
     return effect_;
 }
 
+void EffectFinder::describe(GraphChange& change) {
+    change.facets.clear();
+    for (const Relabel& r : changes_) change.facets.push_back(r.facet);
+    change.fans = fans_;
+    change.same_charts = same_charts(change.to);
+    if (change.same_charts) return;
+    const Index old = static_cast<Index>(graph_->charts.size());
+    change.most_chart = old + static_cast<Index>(zone_.size());
+    change.charts = graph_->chart;
+    for (const Index c : old_charts_) rest_[c] = root(rest_[c]);
+    for (Index f = 0; f < mesh_.facets(); f++) {
+        Index& c = change.charts[f];
+        if (met_chart_.has(c)) c = old + (has_piece_.has(f) ? root(piece_[f]) : rest_[c]);
+    }
+}
+
+// Whether each old chart keeps one piece, its own, and what changes goes to such pieces; `to`: into which charts.
+bool EffectFinder::same_charts(std::vector<Index>& to) {
+    std::vector<Index> piece(old_charts_.size(), kNone), chart(zone_.size(), kNone);
+    for (const Index f : zone_) {
+        if (new_label_[f] != kNoLabel) continue;
+        const Index c = graph_->chart[f], own = root(piece_[f]);
+        Index& known = piece[met_chart_.number(c)];
+        if (known == own) continue;
+        if (known != kNone || chart[own] != kNone) return false;   // it falls apart, or is one with another
+        known = own;
+        chart[own] = c;
+    }
+    if (std::count(piece.begin(), piece.end(), kNone) > 0) return false;
+    to.clear();
+    for (const Relabel& r : changes_) {
+        const Index from = graph_->chart[r.facet], c = chart[root(piece_[r.facet])];
+        if (c == kNone || r.facet == graph_->charts[from].smallest_facet || r.facet < graph_->charts[c].smallest_facet)
+            return false;
+        to.push_back(c);
+    }
+    return true;
+}
+
 void EffectFinder::note_changes(const Patch& patch) {
     new_label_.resize(mesh_.facets(), kNoLabel);
     for (const Relabel& r : changes_) new_label_[r.facet] = kNoLabel;   // those of the last patch

@@ -63,14 +63,12 @@ Score Judge::score(const State& state, const Patch& patch, std::int64_t most_los
 
 void Judge::apply(State& state, const Patch& patch) {
     state.score = score(state, patch);
-    std::vector<Index> changed;
-    for (const Relabel& r : effects_.changes()) {
-        state.labels[r.facet] = r.label;
-        changed.push_back(r.facet);
-    }
+    if (effects_.changes().empty()) return;
+    effects_.describe(change_);
+    for (const Relabel& r : effects_.changes()) state.labels[r.facet] = r.label;
     const std::vector<Boundary> boundaries = state.graph.boundaries;
     const std::vector<Index> halfedges = state.graph.halfedges;
-    update_graph(mesh_, state.labels, changed, state.graph);
+    update_graph(mesh_, state.labels, change_, state.graph);
     state.turning = find_turning_points(mesh_, state.graph, boundaries, halfedges, state.turning);
 }
 

@@ -216,8 +216,10 @@ Index Scanner::plain_index_in_line() {
     const std::size_t first = at_, last = std::min(text_.size(), first + 10);
     std::size_t end = first;
     Index value = 0;
-    for (; end < last && text_[end] >= '0' && text_[end] <= '9' && end < first + 9; end++) value = 10 * value + (text_[end] - '0');
-    const bool ends = end == text_.size() || kind(text_[end]) == CharacterKind::blank || kind(text_[end]) == CharacterKind::line_end;
+    for (; end < last && text_[end] >= '0' && text_[end] <= '9' && end < first + 9; end++)
+        value = 10 * value + (text_[end] - '0');
+    const bool ends =
+        end == text_.size() || kind(text_[end]) == CharacterKind::blank || kind(text_[end]) == CharacterKind::line_end;
     if (end == first || !ends) return kNone;
     at_ = end;
     return value;

@@ -53,7 +53,7 @@ void check_random_patches(const TriMesh& mesh, bool allow_opposite, Lcg& random,
     State state = judge.state(naive_labeling(mesh));
     for (int i = 0; i < patches; i++) {
         const Patch patch = random_patch(mesh, random);
-        State after = judge.state(patched(state.labels, patch));
+        const State after = judge.state(patched(state.labels, patch));
         const Effect effect = finder.effect(state.labels, state.graph, state.turning, patch);
         const Numbers a = numbers(mesh, state), b = numbers(mesh, after);
         CHECK(effect.charts == b.charts - a.charts);
@@ -70,7 +70,16 @@ void check_random_patches(const TriMesh& mesh, bool allow_opposite, Lcg& random,
             CHECK(bounded.invalid == kUnknown);
         else
             CHECK(bounded == after.score);
-        if (random.below(3) > 0) std::swap(state, after);
+        State applied = state;
+        judge.apply(applied, patch);
+        CHECK_NOTHROW(validate(mesh, applied.labels, applied.graph));
+        CHECK(graph_text(applied.graph) == graph_text(after.graph));
+        CHECK(applied.graph.chart == after.graph.chart);
+        CHECK(applied.graph.boundary == after.graph.boundary);
+        CHECK(applied.graph.corner == after.graph.corner);
+        CHECK(applied.graph.invalid() == after.graph.invalid());
+        CHECK(applied.score == after.score);
+        if (random.below(3) > 0) std::swap(state, applied);
     }
 }
 

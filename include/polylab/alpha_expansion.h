@@ -66,8 +66,8 @@ private:
 
     // Of the current move:
     std::vector<Site> sites_;
-    std::vector<Index> queue_;                       // decided sites, whose neighbours have to be told
-    std::vector<Index> core_;                        // the sites that max-flow decides
+    std::vector<Index> queue_;   // decided sites, whose neighbours have to be told
+    std::vector<Index> core_;    // the sites that max-flow decides
     MaxFlow network_;
 };
 

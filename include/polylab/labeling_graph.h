@@ -75,7 +75,6 @@ struct LabelingGraph {
     std::vector<Index> chart;              // facet -> chart
     std::vector<Index> boundary;           // half-edge -> boundary; kNone inside charts
     std::vector<Index> corner;             // vertex -> corner or kNone
-    std::vector<Index> borders;            // half-edges, increasing, whose facets have different labels: both of each edge
     std::vector<Index> halfedges;          // of all boundaries
     std::vector<Index> chart_boundaries;   // of all charts
     std::vector<Index> ring_halfedges;     // of all rings
@@ -97,9 +96,19 @@ struct LabelingGraph {
 // The graph of a labeling. One pass over the half-edges and facets, then work along the boundaries only. O(n)
 LabelingGraph build_graph(const TriMesh& mesh, const Labeling& labels, bool allow_opposite = true);
 
-// Makes the graph of labels that differ on the `changed` facets only (each listed once) that of `labels`: the same that
-// build_graph() gives. O(facets of charts that change + length of all boundaries), and one look at each facet's chart.
-void update_graph(const TriMesh& mesh, const Labeling& labels, const std::vector<Index>& changed, LabelingGraph& graph);
+// A change of labels, with what EffectFinder finds out about it.
+struct GraphChange {
+    std::vector<Index> facets;   // those whose labels change, each once
+    std::vector<Index> fans;     // a half-edge in each fan that such a facet is part of
+    bool same_charts = false;    // no chart comes, goes, or has another smallest facet
+    std::vector<Index> to;       // if so: the chart of each of these facets, in the same order
+    std::vector<Index> charts;   // if not: facet -> a number, at most `most_chart`, that the facets of its chart share
+    Index most_chart = kNone;
+};
+
+// Makes the graph of the labels before a change that of `labels`: the same that build_graph() gives. Boundaries that do not pass
+// the change are only moved to their new places. O(length of all boundaries), and O(n) where the charts are not the same
+void update_graph(const TriMesh& mesh, const Labeling& labels, const GraphChange& change, LabelingGraph& graph);
 
 inline constexpr Index kLeastBoundaries = 4;   // of a valid chart
 

@@ -46,8 +46,11 @@ public:
     Effect finish(Index most_invalid = std::numeric_limits<Index>::max());
     // Of the last patch: what differs from the labels it was to change, each facet once.
     const Patch& changes() const { return changes_; }
+    // Of the last patch, once it is finished: what update_graph() needs. O(n) where the charts are not the same
+    void describe(GraphChange& change);
 
 private:
+    bool same_charts(std::vector<Index>& to);
     void note_changes(const Patch& patch);
     void find_zone();
     void count_features();

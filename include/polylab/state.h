@@ -73,8 +73,9 @@ private:
     Labeling locks_;
     std::int64_t loss_per_feature_ = 0;
     EffectFinder effects_;
-    Effect effect_;   // of the patch scored last
-    Patch allowed_;   // memory of score(): the patch without locked facets
+    Effect effect_;        // of the patch scored last
+    Patch allowed_;        // memory of score(): the patch without locked facets
+    GraphChange change_;   // of apply()
 };
 
 }   // namespace polylab
