@@ -9,9 +9,10 @@ namespace polylab {
 
 namespace {
 
-constexpr double kDataScale = 500;              // times 1 - cosine; an edge costs up to 100 at compactness 1
-constexpr int kBandRings[] = {0, 1, 3};         // of facets around those beside a boundary, each time added to those before
-constexpr int kBandCompactness[] = {0, 3};      // 0: every facet by itself; the score refuses what is too ragged
+constexpr double kDataScale = 500;           // times 1 - cosine; an edge costs up to 100 at compactness 1
+constexpr int kBandRings[] = {0, 1, 3};      // of facets around those beside a boundary, each time added to those before
+constexpr int kBandCompactness[] = {0, 3};   // 0: every facet by itself; the score refuses what is too ragged
+constexpr double kAcross = 0.1;   // cosine of normal and label, 84 degrees: below this the facet stands across its label
 constexpr Index kMostPolishProposals = 20000;   // as in the routines; parts need up to 3000
 
 // Where i stands in a sorted list, or kNone.
@@ -226,7 +227,8 @@ private:
     }
 
     // The face of f, beside a lost feature edge: the facets of its chart up to feature edges. It takes the label that wins most,
-    // if that makes no new chart, turns no facet away, and wins feature edges worth twice the fidelity that it costs.
+    // if that makes no new chart, wins feature edges worth twice the fidelity that it costs, and turns no facet across its label:
+    // a polycube would sweep such a face sideways, which costs more than the edges.
     void relabel_face(Index f) {
         if (face_tried_.has(f)) return;
         const Label old = state_.labels[f];
@@ -241,7 +243,7 @@ private:
         if (over() || !tried_.insert(fingerprint(relabel(face, old))).second) return;
         Label best = old;
         for (Label l = 0; l < kLabels; l++) {
-            if (l == old || std::any_of(face.begin(), face.end(), [&](Index g) { return along(mesh_.normal[g], l) < kAway; }))
+            if (l == old || std::any_of(face.begin(), face.end(), [&](Index g) { return along(mesh_.normal[g], l) < kAcross; }))
                 continue;
             step.proposals++;
             proposals_tried_++;
