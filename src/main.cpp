@@ -169,9 +169,9 @@ struct Judged {
     Statistics statistics;
 };
 
-Judged judge(const TriMesh& mesh, const Labeling& labels) {
+Judged judge(const TriMesh& mesh, const Labeling& labels, LabelingGraph graph) {
     Judged judged;
-    judged.graph = build_graph(mesh, labels);
+    judged.graph = std::move(graph);
     judged.statistics = statistics(mesh, labels, judged.graph);
     return judged;
 }
@@ -220,7 +220,7 @@ std::string report_of(const char* command, const Arguments& arguments, const Tri
 }
 
 // The paper's routines and what comes after them, with a line of progress per step that is kept; `trace` gets a line per step.
-Labeling run_full(const TriMesh& mesh, const Labeling& start, Labeling locks, int effort, const Arguments& arguments,
+State run_full(const TriMesh& mesh, const Labeling& start, Labeling locks, int effort, const Arguments& arguments,
                   const Console& console, std::string& trace) {
     const std::string routine = arguments.get("--routine", "both");
     RoutineOptions options;
@@ -234,7 +234,7 @@ Labeling run_full(const TriMesh& mesh, const Labeling& start, Labeling locks, in
             console.detail(step.operation + ": " + std::to_string(step.after.invalid) + " invalid, " +
                            std::to_string(step.after.turning_points) + " turning-points left");
     };
-    return search(mesh, start, options, effort).labels;
+    return search(mesh, start, options, effort);
 }
 
 std::vector<Output> outputs_of(const std::vector<ExportedFile>& files) {
@@ -283,12 +283,17 @@ int run_label(const Arguments& arguments) {
         layers.push_back({arguments.has("--init") ? "initial" : method == "naive" ? "naive" : "graph-cut", labels});
     }
     std::string trace;
+    LabelingGraph graph;
     if (method == "full") {
-        labels = run_full(mesh, labels, std::move(locks), effort, arguments, console, trace);
+        State state = run_full(mesh, labels, std::move(locks), effort, arguments, console, trace);
+        labels = std::move(state.labels);
+        graph = std::move(state.graph);
         console.detail("final labeling after " + watch.seconds());
         if (arguments.has("--report")) layers.push_back({"final", labels});
+    } else {
+        graph = build_graph(mesh, labels);
     }
-    const Judged result = judge(mesh, labels);
+    const Judged result = judge(mesh, labels, std::move(graph));
     std::vector<ExportedFile> files = export_files(output, mesh, labels);
     if (files.empty()) files = {{output, labels_text(labels)}};
     std::string json;
@@ -319,7 +324,7 @@ int run_stats(const Arguments& arguments) {
     std::vector<double> rotation;
     const TriMesh mesh = read_part(arguments, console, rotation);
     const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
-    const Judged result = judge(mesh, labels);
+    const Judged result = judge(mesh, labels, build_graph(mesh, labels));
     const std::string json = statistics_json(result.statistics, explain(mesh, result.graph), rotation);
     std::string report, picture;
     std::vector<Output> outputs = {{arguments.get("-o", "-"), json}};
@@ -335,7 +340,7 @@ int run_explain(const Arguments& arguments) {
     const Console console(arguments);
     const TriMesh mesh = read_part(arguments, console);
     const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
-    const Judged result = judge(mesh, labels);
+    const Judged result = judge(mesh, labels, build_graph(mesh, labels));
     std::string text;
     for (const Problem& p : explain(mesh, result.graph)) text += p.text + "\n";
     const std::string advice = hint(mesh);
@@ -381,7 +386,7 @@ int run_polycube(const Arguments& arguments) {
     const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
     MeshData polycube = mesh_data(mesh);
     polycube.points = surface_polycube(mesh, labels);
-    Judged result = judge(mesh, labels);
+    Judged result = judge(mesh, labels, build_graph(mesh, labels));
     const Distortion d = distortion(mesh, polycube.points);
     result.statistics.distortion = d;
     const std::string text = output == "-" ? obj_text(polycube) : mesh_text(output, polycube);
