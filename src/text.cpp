@@ -143,13 +143,17 @@ void write_through(const Output& output) {
 }   // namespace
 
 void write_files(const std::vector<Output>& outputs) {
+    const auto place = [](const fs::path& path) {   // one name for x, ./x and folder/../x
+        std::error_code none;
+        return fs::weakly_canonical(fs::absolute(path, none), none);
+    };
     std::vector<Part> parts;
     std::error_code error;
     try {
         for (const Output& output : outputs) {
             parts.push_back(write_part(output));
             for (std::size_t i = 0; i + 1 < parts.size(); i++)
-                if (!parts[i].part.empty() && parts[i].target == parts.back().target)
+                if (!parts[i].part.empty() && place(parts[i].target) == place(parts.back().target))
                     refuse_output(output.path, "it is the place of another output too");
         }
         for (std::size_t i = 0; i < outputs.size(); i++)

@@ -493,6 +493,7 @@ TEST_CASE("cli: an output takes neither the place of the part nor that of anothe
     check_refused(scratch, "label cube.obj -o l.txt --stats link.obj", "link.obj: can't be written: it is read as cube.obj");
     CHECK(scratch.read("cube.obj") == part);
     check_refused(scratch, "label cube.obj -o x --stats x", "x: can't be written: it is the place of another output too");
+    check_refused(scratch, "label cube.obj -o x --stats ./x", "./x: can't be written: it is the place of another output too");
     scratch.write("l.txt", "old");
     check_refused(scratch, "label cube.obj -o l.txt --stats l.txt", "l.txt: can't be written: it is the place of");
     CHECK(scratch.read("l.txt") == "old");
