@@ -221,7 +221,7 @@ std::string report_of(const char* command, const Arguments& arguments, const Tri
 
 // The paper's routines and what comes after them, with a line of progress per step that is kept; `trace` gets a line per step.
 State run_full(const TriMesh& mesh, const Labeling& start, Labeling locks, int effort, const Arguments& arguments,
-                  const Console& console, std::string& trace) {
+               const Console& console, std::string& trace) {
     const std::string routine = arguments.get("--routine", "both");
     RoutineOptions options;
     options.validity = routine != "monotonicity";

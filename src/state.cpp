@@ -47,7 +47,7 @@ Score Judge::score(const State& state, const Patch& patch, std::int64_t most_los
     if (!locks_.empty()) {
         allowed_.clear();
         for (const Relabel& r : patch)
-            if (free(r.facet)) allowed_.push_back(r);
+            if (!locked(r.facet)) allowed_.push_back(r);
     }
     const Index lost = effects_.begin(state.labels, state.graph, state.turning, locks_.empty() ? patch : allowed_);
     Score score = {kUnknown, kUnknown, state.score.loss + loss_per_feature_ * lost};

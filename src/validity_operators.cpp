@@ -340,7 +340,7 @@ std::int64_t least_loss_of_removal(const Judge& judge, const State& state, const
             if (allowed[c][l]) labels.push_back(l);
         if (labels.empty()) continue;   // the chart stays
         for (const Index f : facets_of(state, c)) {
-            std::int64_t least = kAnyLoss;
+            std::int64_t least = judge.locked(f) ? judge.loss(f, state.labels[f]) : kAnyLoss;
             for (const Label l : labels) least = std::min(least, judge.loss(f, l));
             loss += least - judge.loss(f, state.labels[f]);
             for (Index h = 3 * f; h < 3 * f + 3; h++)

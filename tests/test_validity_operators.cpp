@@ -716,6 +716,15 @@ TEST_CASE("validity operators: no removal costs less than it is said to cost at 
             for (const Patch& patch : remove_charts_around_boundary(scene.mesh, scene.state, b))
                 CHECK(scene.after(patch).score.loss - scene.state.score.loss >= least);
         }
+        // Locked facets stay, and cost nothing.
+        Labeling locks = scene.state.labels;
+        for (std::size_t f = 0; f < locks.size(); f++)
+            if (f % 3 != 0) locks[f] = kNoLabel;
+        Judge locking(scene.mesh, true, locks);
+        for (Index c = 0; c < static_cast<Index>(scene.state.graph.charts.size()); c++)
+            for (const Patch& patch : remove_chart(scene.mesh, scene.state, c))
+                CHECK(locking.score(scene.state, patch).loss - scene.state.score.loss >=
+                      least_loss_of_removing_chart(locking, scene.state, c));
     }
     // By hand: a facet of a cube with the opposite label, fidelity 0 and pointing away, may take its own again, fidelity 1.
     const TriMesh mesh = build_mesh(cube(1));

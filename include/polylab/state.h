@@ -61,12 +61,12 @@ public:
     Index added_charts() const { return effect_.charts; }
     // Makes `state` that of its labels with the patch applied. At the price of update_graph()
     void apply(State& state, const Patch& patch);
-    std::int64_t loss(Index f, Label l) const;                            // kLossUnit (1 - fidelity), and kAwayLoss more
+    std::int64_t loss(Index f, Label l) const;   // kLossUnit (1 - fidelity), and kAwayLoss more
+    bool locked(Index f) const { return !locks_.empty() && locks_[f] != kNoLabel; }
     std::int64_t loss_per_feature() const { return loss_per_feature_; }   // of each that is lost
 
 private:
     Index invalid(Index elements, Index charts) const;
-    bool free(Index f) const { return locks_.empty() || locks_[f] == kNoLabel; }
 
     const TriMesh& mesh_;
     bool allow_opposite_;
