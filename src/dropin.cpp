@@ -64,7 +64,7 @@ bool truth(const Arguments& given, const std::string& key) {
 void run_automatic_polycube(const Arguments& given) {
     const TriMesh mesh = read_dropin_surface(given.operands[0]);
     const bool start = given.operands.size() > 1;
-    const Labeling labels = search(mesh, start ? read_labels(given.operands[1], mesh.facets()) : graphcut_labeling(mesh)).labels;
+    const Labeling labels = search(mesh, start ? read_labels(given.operands[1], mesh.facets()) : search_start(mesh)).labels;
     finish_labeling(given.get("output"), mesh, labels);
 }
 

@@ -76,8 +76,9 @@ PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) 
         const double c = dot(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)]);
         if (c != cosine) cost = bell_cost(c - 1, kPairwiseSigma, kCostScale * options.compactness);
         cosine = c;
-        energy.arcs[facet(h)][h % 3] = {facet(back), cost};
-        energy.arcs[facet(back)][back % 3] = {facet(h), cost};
+        const int weight = options.free_features && mesh.feature[h] ? 0 : cost;
+        energy.arcs[facet(h)][h % 3] = {facet(back), weight};
+        energy.arcs[facet(back)][back % 3] = {facet(h), weight};
     }
     return energy;
 }

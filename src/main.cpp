@@ -273,14 +273,19 @@ int run_label(const Arguments& arguments) {
         labels = read_labels(arguments.get("--init"), mesh.facets());
     else if (method == "naive")
         labels = naive_labeling(mesh);
-    else
+    else if (method == "graphcut")
         labels = graphcut_labeling(mesh, initial, locks, interrupted);
+    else
+        labels = search_start(mesh, effort, initial, locks, interrupted);
     for (std::size_t f = 0; f < locks.size(); f++)   // the other methods honour them too
         if (locks[f] != kNoLabel) labels[f] = locks[f];
     console.detail("initial labeling after " + watch.seconds());
     if (arguments.has("--report")) {
         if (method != "naive") layers.push_back({"naive", naive_labeling(mesh)});
-        layers.push_back({arguments.has("--init") ? "initial" : method == "naive" ? "naive" : "graph-cut", labels});
+        if (method == "full" && !arguments.has("--init"))   // the paper's, to compare with, not the one that is repaired
+            layers.push_back({"graph-cut", graphcut_labeling(mesh, initial, locks, interrupted)});
+        else
+            layers.push_back({arguments.has("--init") ? "initial" : method == "naive" ? "naive" : "graph-cut", labels});
     }
     std::string trace;
     LabelingGraph graph;

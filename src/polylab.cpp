@@ -29,6 +29,6 @@ TetSurface outward_surface(const MeshData& tets, const std::string& name, std::v
     }
 }
 
-Labeling label_polycube(const TriMesh& mesh) { return search(mesh, graphcut_labeling(mesh)).labels; }
+Labeling label_polycube(const TriMesh& mesh) { return search(mesh, search_start(mesh)).labels; }
 
 }   // namespace polylab

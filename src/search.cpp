@@ -1,7 +1,5 @@
 #include "polylab/search.h"
 
-#include "polylab/initial_labeling.h"
-
 #include <algorithm>
 #include <tuple>
 
@@ -32,6 +30,11 @@ bool is_good(const TriMesh& mesh, const State& s) {
 
 }   // namespace
 
+Labeling search_start(const TriMesh& mesh, int effort, InitialOptions initial, const Labeling& locks, const Stop& stop) {
+    initial.free_features = effort > 0;
+    return graphcut_labeling(mesh, initial, locks, stop);
+}
+
 State search(const TriMesh& mesh, const Labeling& start, const RoutineOptions& options, int effort) {
     Index tried = 0;
     RoutineOptions first = options, inner = options;
@@ -50,7 +53,7 @@ State search(const TriMesh& mesh, const Labeling& start, const RoutineOptions& o
         if (effort == 2 && (tried >= most_before_start(mesh) || is_good(mesh, best))) break;
         InitialOptions initial;
         initial.compactness = compactness;
-        State other = from_start(mesh, graphcut_labeling(mesh, initial, options.locks, options.stop), inner, effort);
+        State other = from_start(mesh, search_start(mesh, effort, initial, options.locks, options.stop), inner, effort);
         Step step{"start-again", compactness, false, standing(mesh, other) < standing(mesh, best), 1, 0, best.score, other.score};
         for (Index f = 0; f < mesh.facets(); f++) step.facets += other.labels[f] != best.labels[f];
         if (options.trace) options.trace(step);

@@ -86,10 +86,13 @@ std::string statistics_stage(const TriMesh& mesh, const Labeling& labels) {
 std::vector<Stage> stages(const TriMesh& mesh) {
     const Labeling graphcut = graphcut_labeling(mesh);
     const LabelingGraph graph = build_graph(mesh, graphcut);
+    const Labeling start = search_start(mesh);
     std::string trace;
+    for (Index f = 0; f < mesh.facets(); f++)
+        if (start[f] != graphcut[f]) line(trace, "start", {f, start[f]});
     RoutineOptions options;
     options.trace = [&](const Step& step) { trace += trace_line(step); };
-    const Labeling labels = search(mesh, graphcut, options).labels;
+    const Labeling labels = search(mesh, start, options).labels;
     const std::string energy = "energy " + std::to_string(labeling_energy(mesh)(graphcut)) + "\n";
     return {{"01-mesh", mesh_stage(mesh)},
             {"02-costs", costs_stage(mesh)},

@@ -1,5 +1,6 @@
 #include "polylab/initial_labeling.h"
 
+#include "polylab/io.h"
 #include "shapes.h"
 
 #include <doctest/doctest.h>
@@ -159,6 +160,21 @@ TEST_CASE("initial labeling: the energy has one site per facet and one edge per 
             CHECK(weight == pairwise_cost(mesh.normal[mesh.left(h)], mesh.normal[site], 1));
         }
     }
+}
+
+TEST_CASE("initial labeling: free feature edges cost nothing, all else is the same") {
+    const TriMesh mesh = build_mesh(read_mesh(std::string(POLYLAB_SOURCE_DIR) + "/golden/cases/countersunk/in.obj"));
+    InitialOptions options;
+    options.free_features = true;
+    const PottsEnergy energy = labeling_energy(mesh), free = labeling_energy(mesh, options);
+    CHECK(free.data == energy.data);
+    Index cheaper = 0;
+    for (Index h = 0; h < mesh.halfedges(); h++) {
+        const Index weight = energy.arcs[facet(h)][h % 3].weight;
+        CHECK(free.arcs[facet(h)][h % 3].weight == (mesh.feature[h] ? 0 : weight));
+        cheaper += mesh.feature[h] && weight > 0;
+    }
+    CHECK(cheaper > 0);
 }
 
 TEST_CASE("initial labeling: energies of a cube counted by hand") {

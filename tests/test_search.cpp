@@ -118,6 +118,14 @@ TEST_CASE("search: effort 0 is the routines alone, and a part that needs no repa
     CHECK(search(plain, naive_labeling(plain), options).labels == naive_labeling(plain));
 }
 
+TEST_CASE("search: the start follows obtuse feature edges, but at effort 0") {
+    const TriMesh mesh = golden_part("countersunk");
+    const Labeling plain = graphcut_labeling(mesh), start = search_start(mesh);
+    CHECK(search_start(mesh, 0) == plain);
+    CHECK(statistics(mesh, start, build_graph(mesh, start)).features_lost <
+          statistics(mesh, plain, build_graph(mesh, plain)).features_lost);
+}
+
 TEST_CASE("search: another start where the first one leaves something invalid") {
     const TriMesh mesh = golden_part("torus");
     const Labeling start(mesh.facets(), 0);   // no boundary, where operators could begin

@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
         lap("mesh");
         naive_labeling(mesh);
         lap("naive");
-        Labeling labels = graphcut_labeling(mesh);
+        Labeling labels = search_start(mesh);
         lap("graph-cut");
         build_graph(mesh, labels);
         lap("graph");

@@ -9,10 +9,11 @@
 namespace polylab {
 
 struct InitialOptions {
-    int compactness = 1;         // weight of the pairwise cost, 0..1000
-    int fidelity = 3;            // weight of the data cost, 0..1000; paper: ratio 1/3
-    double sensitivity = 1e-9;   // facets whose two best labels are closer than this are tilted (published code; paper: 1e-10)
-    double angle = 0.05;         // rad, by which they are tilted around X, then Y, then Z
+    int compactness = 1;          // weight of the pairwise cost, 0..1000
+    int fidelity = 3;             // weight of the data cost, 0..1000; paper: ratio 1/3
+    double sensitivity = 1e-9;    // facets whose two best labels are closer than this are tilted (published code; paper: 1e-10)
+    double angle = 0.05;          // rad, by which they are tilted around X, then Y, then Z
+    bool free_features = false;   // whether borders on kept feature edges cost nothing; not in the paper, see search.h
 };
 
 // The label closest to each normal; the first of equals; +X for a facet without area. O(n)
