@@ -49,27 +49,27 @@ void MaxFlow::add_terminals(Index node, Index from_source, Index to_sink) {
     nodes_[node].terminal = source - sink;
 }
 
-// Moves what the sources have (sign 1) towards the sinks, or what the sinks lack (-1) towards the sources: all of it at
+// Moves what the sources have (Sign 1) towards the sinks, or what the sinks lack (-1) towards the sources: all of it at
 // once, from the farthest nodes to the nearest, each node passing on what it has to those one arc nearer. Where it can't go
 // on it stays, as capacity between the terminal and that node. The value of every cut stays the same, but for the flow that
 // has arrived, so the minimum cuts are those of the graph as it was. Returns what moved over
 // all arcs. O(nodes that are not apart, and their edges)
-template <int sign>
+template <int Sign>
 std::int64_t MaxFlow::sweep() {
-    constexpr Tree kFrom = sign > 0 ? Tree::source : Tree::sink;
-    const bool all_met = find_levels<sign>(false);
+    constexpr Tree kFrom = Sign > 0 ? Tree::source : Tree::sink;
+    const bool all_met = find_levels<Sign>(false);
     std::int64_t moved = 0;
     for (std::size_t k = active_count_; k-- > 0;) {
         const Index i = active_[k], nearer = level_[i] - 1;
         Node& node = nodes_[i];
-        for (Index arc = 3 * i; arc < 3 * i + 3 && sign * node.terminal > 0; arc++) {
+        for (Index arc = 3 * i; arc < 3 * i + 3 && Sign * node.terminal > 0; arc++) {
             if (level_[arcs_[arc].head] != nearer || nearer < 0) continue;
             Node& other = nodes_[arcs_[arc].head];
-            const auto amount = static_cast<Index>(std::min<std::int64_t>(sign * node.terminal, from_root(arc, kFrom)));
-            push(arc, sign * amount);
-            if (sign * other.terminal < 0) flow_ += std::min<std::int64_t>(amount, -sign * other.terminal);
-            node.terminal -= sign * amount;
-            other.terminal += sign * amount;
+            const auto amount = static_cast<Index>(std::min<std::int64_t>(Sign * node.terminal, from_root(arc, kFrom)));
+            push(arc, Sign * amount);
+            if (Sign * other.terminal < 0) flow_ += std::min<std::int64_t>(amount, -Sign * other.terminal);
+            node.terminal -= Sign * amount;
+            other.terminal += Sign * amount;
             moved += amount;
         }
     }
@@ -78,15 +78,15 @@ std::int64_t MaxFlow::sweep() {
     return moved;
 }
 
-// Levels breadth-first from the sinks (sign 1) or the sources (-1), against the direction in which a sweep moves: of all nodes
+// Levels breadth-first from the sinks (Sign 1) or the sources (-1), against the direction in which a sweep moves: of all nodes
 // that can be met, or until those are met that have something to move. Whether they are. The nodes that were met are in active_
 // then, nearest first.
-template <int sign>
+template <int Sign>
 bool MaxFlow::find_levels(bool all) {
-    constexpr Tree kFrom = sign > 0 ? Tree::source : Tree::sink;
+    constexpr Tree kFrom = Sign > 0 ? Tree::source : Tree::sink;
     Index waiting = all;
     for (const Index i : within_) {
-        const std::int64_t terminal = sign * nodes_[i].terminal;
+        const std::int64_t terminal = Sign * nodes_[i].terminal;
         level_[i] = terminal < 0 ? 0 : kNone;
         if (terminal < 0) active_[active_count_++] = i;
         waiting += terminal > 0;
@@ -98,7 +98,7 @@ bool MaxFlow::find_levels(bool all) {
             if (level_[other] != kNone || toward_root(arc, kFrom) == 0) continue;
             level_[other] = level;
             active_[active_count_++] = other;
-            waiting -= sign * nodes_[other].terminal > 0;
+            waiting -= Sign * nodes_[other].terminal > 0;
         }
     }
     return waiting == 0;

@@ -43,9 +43,9 @@ public:
 private:
     enum class Tree : char { none, source, sink, apart };   // apart: no path from a source to a sink goes through the node
 
-    template <int sign>
+    template <int Sign>
     std::int64_t sweep();
-    template <int sign>
+    template <int Sign>
     bool find_levels(bool all);
     void set_apart();
     bool join_or_meet(Index node, Index arc);
