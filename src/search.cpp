@@ -1,7 +1,14 @@
 #include "polylab/search.h"
 
+#include "polylab/quality_operators.h"
+#include "polylab/validity_operators.h"
+
 #include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 
 namespace polylab {
 
@@ -13,11 +20,6 @@ constexpr int kStartCompactness[] = {2, 3, 4, 6, 10};   // of other starts: ever
 // those that cross themselves, take all that they are given: a small one has to end within a second.
 Index most_before_start(const TriMesh& mesh) { return std::max(20000, 20 * std::min(mesh.facets(), 100000000)); }
 
-State from_start(const TriMesh& mesh, const Labeling& start, const RoutineOptions& options, int effort) {
-    State state = run_routines(mesh, start, options);
-    return effort == 0 ? state : polish(mesh, start, std::move(state), options);
-}
-
 // The score, with turning-points by the published count too, which depends on directions and decides a result's class.
 std::tuple<Index, Index, Index, std::int64_t> standing(const TriMesh& mesh, const State& s) {
     return {s.score.invalid, s.score.turning_points, published_turning_points(mesh, s.graph).vertices, s.score.loss};
@@ -26,6 +28,92 @@ std::tuple<Index, Index, Index, std::int64_t> standing(const TriMesh& mesh, cons
 bool is_good(const TriMesh& mesh, const State& s) {
     const auto [invalid, turning_points, published, loss] = standing(mesh, s);
     return invalid == 0 && turning_points == 0 && published == 0;
+}
+
+// ---- best-first search
+
+constexpr Index kMostExplored = 2000;   // proposals; what can be solved takes some hundreds
+constexpr Index kMostWrong = 20;        // invalid elements and turning-points; more is not mended by so few
+constexpr std::size_t kMostOpen = 50;   // labelings that wait to be expanded
+
+void append(Proposals& all, Proposals more) {
+    for (Patch& patch : more) all.push_back(std::move(patch));
+}
+
+// What all operators propose for all that is wrong: turning-points only once nothing is invalid.
+Proposals all_proposals(const TriMesh& mesh, const State& s) {
+    Proposals all;
+    for (Index c = 0; c < static_cast<Index>(s.graph.charts.size()); c++) {
+        if (s.graph.charts[c].valid) continue;
+        for (const auto propose : {remove_surrounded_chart, increase_chart_valence, grow_chart, remove_chart})
+            append(all, propose(mesh, s, c));
+    }
+    for (Index b = 0; b < static_cast<Index>(s.graph.boundaries.size()); b++) {
+        if (s.graph.boundaries[b].valid) continue;
+        for (const auto propose : {opposite_boundary, remove_charts_around_boundary}) append(all, propose(mesh, s, b));
+    }
+    for (Index c = 0; c < static_cast<Index>(s.graph.corners.size()); c++)
+        if (!s.graph.corners[c].valid) append(all, high_valence_corner(mesh, s, c));
+    if (!s.graph.valid()) return all;
+    const std::vector<TurningPoint> points =
+        s.turning.points.empty() ? published_turning_points(mesh, s.graph).points : s.turning.points;
+    for (const TurningPoint& t : points) {
+        for (const auto propose : {join_turning_points, pull_closest_corner, move_boundary_near, directional_path})
+            append(all, propose(mesh, s, t));
+        append(all, straighten_boundary(mesh, s, t.boundary));
+    }
+    return all;
+}
+
+// FNV-1a
+std::uint64_t fingerprint(const Labeling& labels) {
+    std::uint64_t hash = 14695981039346656037u;
+    for (const Label l : labels) hash = (hash ^ static_cast<std::uint32_t>(l)) * 1099511628211u;
+    return hash;
+}
+
+// The routines take no step that makes things worse. Here all proposals for the labeling of the best score so far lead to further
+// labelings, whatever they cost, and each of these is met once.   tie: the one found first
+State explore(const TriMesh& mesh, const State& start, const RoutineOptions& options) {
+    Judge judge(mesh, options.allow_opposite, options.locks);
+    State best = start;
+    std::map<std::pair<Score, Index>, Labeling> open;   // by score, then number
+    open[{start.score, 0}] = start.labels;
+    std::set<std::uint64_t> met = {fingerprint(start.labels)};
+    Step all{"explore", kNone, false, false, 0, 0, start.score, start.score};
+    for (Index numbers = 0; !open.empty() && all.proposals < kMostExplored;) {
+        const Index number = open.begin()->first.second;
+        const State state = judge.state(std::move(open.begin()->second));
+        open.erase(open.begin());
+        if (standing(mesh, state) < standing(mesh, best)) best = state;
+        if (is_good(mesh, best)) break;
+        Step step{"expand", number, true, false, 0, 0, state.score, state.score};
+        for (const Patch& patch : all_proposals(mesh, state)) {
+            if (options.stop && options.stop()) break;
+            Labeling labels = state.labels;
+            for (const Relabel& r : patch)
+                if (options.locks.empty() || options.locks[r.facet] == kNoLabel) labels[r.facet] = r.label;
+            if (!met.insert(fingerprint(labels)).second) continue;
+            step.proposals++;
+            open[{judge.score(state, patch), ++numbers}] = std::move(labels);
+            if (open.size() > kMostOpen) open.erase(std::prev(open.end()));
+        }
+        all.proposals += step.proposals;
+        if (options.trace && step.proposals > 0) options.trace(step);
+    }
+    all.kept = standing(mesh, best) < standing(mesh, start);
+    all.after = best.score;
+    for (Index f = 0; f < mesh.facets(); f++) all.facets += best.labels[f] != start.labels[f];
+    if (options.trace && all.proposals > 0) options.trace(all);
+    return best;
+}
+
+State from_start(const TriMesh& mesh, const Labeling& start, const RoutineOptions& options, int effort) {
+    State state = run_routines(mesh, start, options);
+    if (effort > 0) state = polish(mesh, start, std::move(state), options);
+    if (effort < 2 || is_good(mesh, state) || state.score.invalid + state.score.turning_points > kMostWrong) return state;
+    State found = explore(mesh, state, options);
+    return found.labels == state.labels ? found : polish(mesh, state.labels, std::move(found), options);
 }
 
 }   // namespace
@@ -39,11 +127,11 @@ State search(const TriMesh& mesh, const Labeling& start, const RoutineOptions& o
     Index tried = 0;
     RoutineOptions first = options, inner = options;
     first.trace = [&](const Step& step) {
-        tried += step.proposals;
+        tried += step.operation == "explore" ? 0 : step.proposals;   // counted when they were tried
         if (options.trace) options.trace(step);
     };
     inner.trace = [&](Step step) {
-        tried += step.proposals;
+        tried += step.operation == "explore" ? 0 : step.proposals;
         step.in_sequence = true;
         if (options.trace) options.trace(step);
     };
