@@ -81,7 +81,8 @@ State explore(const TriMesh& mesh, const State& start, const RoutineOptions& opt
     open[{start.score, 0}] = start.labels;
     std::set<std::uint64_t> met = {fingerprint(start.labels)};
     Step all{"explore", kNone, false, false, 0, 0, start.score, start.score};
-    for (Index numbers = 0; !open.empty() && all.proposals < kMostExplored;) {
+    const auto stopped = [&] { return options.stop && options.stop(); };
+    for (Index numbers = 0; !open.empty() && all.proposals < kMostExplored && !stopped();) {
         const Index number = open.begin()->first.second;
         const State state = judge.state(std::move(open.begin()->second));
         open.erase(open.begin());
@@ -89,7 +90,7 @@ State explore(const TriMesh& mesh, const State& start, const RoutineOptions& opt
         if (is_good(mesh, best)) break;
         Step step{"expand", number, true, false, 0, 0, state.score, state.score};
         for (const Patch& patch : all_proposals(mesh, state)) {
-            if (options.stop && options.stop()) break;
+            if (stopped()) break;
             Labeling labels = state.labels;
             for (const Relabel& r : patch)
                 if (options.locks.empty() || options.locks[r.facet] == kNoLabel) labels[r.facet] = r.label;
