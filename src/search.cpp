@@ -32,11 +32,11 @@ bool is_good(const TriMesh& mesh, const State& s) {
 
 // ---- best-first search
 
-constexpr Index kMostExplored = 2000;   // proposals; what can be solved takes some hundreds
+constexpr Index kMostExplored = 1000;   // proposals; what can be solved takes some hundreds
 constexpr Index kMostWrong = 20;        // invalid elements and turning-points; more is not mended by so few
 constexpr std::size_t kMostOpen = 50;   // labelings that wait to be expanded
 
-void append(Proposals& all, Proposals more) {
+void add(Proposals& all, Proposals more) {
     for (Patch& patch : more) all.push_back(std::move(patch));
 }
 
@@ -46,21 +46,21 @@ Proposals all_proposals(const TriMesh& mesh, const State& s) {
     for (Index c = 0; c < static_cast<Index>(s.graph.charts.size()); c++) {
         if (s.graph.charts[c].valid) continue;
         for (const auto propose : {remove_surrounded_chart, increase_chart_valence, grow_chart, remove_chart})
-            append(all, propose(mesh, s, c));
+            add(all, propose(mesh, s, c));
     }
     for (Index b = 0; b < static_cast<Index>(s.graph.boundaries.size()); b++) {
         if (s.graph.boundaries[b].valid) continue;
-        for (const auto propose : {opposite_boundary, remove_charts_around_boundary}) append(all, propose(mesh, s, b));
+        for (const auto propose : {opposite_boundary, remove_charts_around_boundary}) add(all, propose(mesh, s, b));
     }
     for (Index c = 0; c < static_cast<Index>(s.graph.corners.size()); c++)
-        if (!s.graph.corners[c].valid) append(all, high_valence_corner(mesh, s, c));
+        if (!s.graph.corners[c].valid) add(all, high_valence_corner(mesh, s, c));
     if (!s.graph.valid()) return all;
     const std::vector<TurningPoint> points =
         s.turning.points.empty() ? published_turning_points(mesh, s.graph).points : s.turning.points;
     for (const TurningPoint& t : points) {
         for (const auto propose : {join_turning_points, pull_closest_corner, move_boundary_near, directional_path})
-            append(all, propose(mesh, s, t));
-        append(all, straighten_boundary(mesh, s, t.boundary));
+            add(all, propose(mesh, s, t));
+        add(all, straighten_boundary(mesh, s, t.boundary));
     }
     return all;
 }
