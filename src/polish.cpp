@@ -282,17 +282,16 @@ private:
         if (options_.trace && step.proposals > 0) options_.trace(step);
     }
 
-    // FNV-1a, a word at a time, over the patch and the labels on and around it.
+    // Of the patch and the labels on and around it.
     std::uint64_t fingerprint(const Patch& patch) const {
-        std::uint64_t hash = 14695981039346656037u;
-        const auto mix = [&](Index i) { hash = (hash ^ static_cast<std::uint32_t>(i)) * 1099511628211u; };
+        Fingerprint print;
         for (const Relabel& r : patch) {
-            mix(r.facet);
-            mix(r.label);
-            mix(state_.labels[r.facet]);
-            for (Index h = 3 * r.facet; h < 3 * r.facet + 3; h++) mix(state_.labels[mesh_.right(h)]);
+            print.mix(r.facet);
+            print.mix(r.label);
+            print.mix(state_.labels[r.facet]);
+            for (Index h = 3 * r.facet; h < 3 * r.facet + 3; h++) print.mix(state_.labels[mesh_.right(h)]);
         }
-        return hash;
+        return print.value();
     }
 
     const TriMesh& mesh_;

@@ -55,6 +55,18 @@ constexpr Pass kPasses[] = {{0.001, false}, {0.004, false}, {0.016, false}, {0.0
 // parts need up to 6000; labelings that are mostly noise would go on for long.
 constexpr Index kMostProposals = 20000;
 
+// How many elements of a kind there are, and whether one is invalid.
+Index count(const State& s, Kind kind) {
+    return static_cast<Index>(kind == Kind::chart      ? s.graph.charts.size()
+                              : kind == Kind::boundary ? s.graph.boundaries.size()
+                                                       : s.graph.corners.size());
+}
+bool invalid(const State& s, Kind kind, Index i) {
+    return kind == Kind::chart      ? !s.graph.charts[i].valid
+           : kind == Kind::boundary ? !s.graph.boundaries[i].valid
+                                    : !s.graph.corners[i].valid;
+}
+
 class Routines {
 public:
     Routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options)
@@ -135,16 +147,6 @@ private:
 
     // ---- elements
 
-    static Index count(const State& s, Kind kind) {
-        return static_cast<Index>(kind == Kind::chart      ? s.graph.charts.size()
-                                  : kind == Kind::boundary ? s.graph.boundaries.size()
-                                                           : s.graph.corners.size());
-    }
-    static bool invalid(const State& s, Kind kind, Index i) {
-        return kind == Kind::chart      ? !s.graph.charts[i].valid
-               : kind == Kind::boundary ? !s.graph.boundaries[i].valid
-                                        : !s.graph.corners[i].valid;
-    }
     // An element by something that outlives a relabeling elsewhere.
     static Index name(const State& s, Kind kind, Index i) {
         return kind == Kind::chart      ? s.graph.charts[i].smallest_facet
@@ -155,20 +157,19 @@ private:
     // A number for all that lies around an element: the charts that meet there, with their contours. While it stays the
     // same, an operator that was refused there need not be tried again.
     std::uint64_t surroundings(const std::vector<Index>& charts) const {
-        std::uint64_t hash = 14695981039346656037u;   // FNV-1a, a word at a time
-        const auto mix = [&](Index i) { hash = (hash ^ static_cast<std::uint32_t>(i)) * 1099511628211u; };
+        Fingerprint print;
         const LabelingGraph& graph = state_.graph;
         for (const Index c : charts) {
-            mix(graph.charts[c].smallest_facet);
-            mix(graph.charts[c].label);
-            mix(graph.charts[c].facets);
+            print.mix(graph.charts[c].smallest_facet);
+            print.mix(graph.charts[c].label);
+            print.mix(graph.charts[c].facets);
             for (Index i = graph.charts[c].boundaries.first; i < graph.charts[c].boundaries.last; i++) {
                 const Boundary& b = graph.boundaries[graph.chart_boundaries[i]];
-                mix(graph.charts[graph.neighbour(graph.chart_boundaries[i], c)].label);
-                for (Index k = b.halfedges.first; k < b.halfedges.last; k++) mix(graph.halfedges[k]);
+                print.mix(graph.charts[graph.neighbour(graph.chart_boundaries[i], c)].label);
+                for (Index k = b.halfedges.first; k < b.halfedges.last; k++) print.mix(graph.halfedges[k]);
             }
         }
-        return hash;
+        return print.value();
     }
 
     std::vector<Index> charts_at(Kind kind, Index i) const {
@@ -304,6 +305,23 @@ private:
 
 State run_routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options) {
     return Routines(mesh, std::move(start), options).run();
+}
+
+Proposals all_proposals(const TriMesh& mesh, const State& state, const std::vector<TurningPoint>& points) {
+    Proposals all;
+    const auto add = [&](Proposals more) {
+        for (Patch& patch : more) all.push_back(std::move(patch));
+    };
+    for (const Kind kind : {Kind::chart, Kind::boundary, Kind::corner})
+        for (Index i = 0; i < count(state, kind); i++)
+            for (const ValidityOperator& o : kValidityOperators)
+                if (o.kind == kind && invalid(state, kind, i)) add(o.propose(mesh, state, i));
+    if (!state.graph.valid()) return all;
+    for (const TurningPoint& t : points) {
+        for (const QualityOperator& o : {kJoin, kPull, kMove, kDirectional}) add(o.propose(mesh, state, t));
+        add(straighten_boundary(mesh, state, t.boundary));
+    }
+    return all;
 }
 
 std::string trace_line(const Step& step) {

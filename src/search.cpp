@@ -1,8 +1,5 @@
 #include "polylab/search.h"
 
-#include "polylab/quality_operators.h"
-#include "polylab/validity_operators.h"
-
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -25,6 +22,11 @@ std::tuple<Index, Index, Index, std::int64_t> standing(const TriMesh& mesh, cons
     return {s.score.invalid, s.score.turning_points, published_turning_points(mesh, s.graph).vertices, s.score.loss};
 }
 
+// Its turning-points; if it has none, those of the published count.
+std::vector<TurningPoint> points_of(const TriMesh& mesh, const State& s) {
+    return s.turning.points.empty() ? published_turning_points(mesh, s.graph).points : s.turning.points;
+}
+
 bool is_good(const TriMesh& mesh, const State& s) {
     const auto [invalid, turning_points, published, loss] = standing(mesh, s);
     return invalid == 0 && turning_points == 0 && published == 0;
@@ -32,44 +34,14 @@ bool is_good(const TriMesh& mesh, const State& s) {
 
 // ---- best-first search
 
-constexpr Index kMostExplored = 1000;   // proposals; what can be solved takes some hundreds
+constexpr Index kMostExplored = 1000;   // proposals; of what it solved, one needed 216, and one over 500
 constexpr Index kMostWrong = 20;        // invalid elements and turning-points; more is not mended by so few
 constexpr std::size_t kMostOpen = 50;   // labelings that wait to be expanded
 
-void add(Proposals& all, Proposals more) {
-    for (Patch& patch : more) all.push_back(std::move(patch));
-}
-
-// What all operators propose for all that is wrong: turning-points only once nothing is invalid.
-Proposals all_proposals(const TriMesh& mesh, const State& s) {
-    Proposals all;
-    for (Index c = 0; c < static_cast<Index>(s.graph.charts.size()); c++) {
-        if (s.graph.charts[c].valid) continue;
-        for (const auto propose : {remove_surrounded_chart, increase_chart_valence, grow_chart, remove_chart})
-            add(all, propose(mesh, s, c));
-    }
-    for (Index b = 0; b < static_cast<Index>(s.graph.boundaries.size()); b++) {
-        if (s.graph.boundaries[b].valid) continue;
-        for (const auto propose : {opposite_boundary, remove_charts_around_boundary}) add(all, propose(mesh, s, b));
-    }
-    for (Index c = 0; c < static_cast<Index>(s.graph.corners.size()); c++)
-        if (!s.graph.corners[c].valid) add(all, high_valence_corner(mesh, s, c));
-    if (!s.graph.valid()) return all;
-    const std::vector<TurningPoint> points =
-        s.turning.points.empty() ? published_turning_points(mesh, s.graph).points : s.turning.points;
-    for (const TurningPoint& t : points) {
-        for (const auto propose : {join_turning_points, pull_closest_corner, move_boundary_near, directional_path})
-            add(all, propose(mesh, s, t));
-        add(all, straighten_boundary(mesh, s, t.boundary));
-    }
-    return all;
-}
-
-// FNV-1a
 std::uint64_t fingerprint(const Labeling& labels) {
-    std::uint64_t hash = 14695981039346656037u;
-    for (const Label l : labels) hash = (hash ^ static_cast<std::uint32_t>(l)) * 1099511628211u;
-    return hash;
+    Fingerprint print;
+    for (const Label l : labels) print.mix(l);
+    return print.value();
 }
 
 // The routines take no step that makes things worse. Here all proposals for the labeling of the best score so far lead to further
@@ -89,7 +61,7 @@ State explore(const TriMesh& mesh, const State& start, const RoutineOptions& opt
         if (standing(mesh, state) < standing(mesh, best)) best = state;
         if (is_good(mesh, best)) break;
         Step step{"expand", number, true, false, 0, 0, state.score, state.score};
-        for (const Patch& patch : all_proposals(mesh, state)) {
+        for (const Patch& patch : all_proposals(mesh, state, points_of(mesh, state))) {
             if (stopped()) break;
             Labeling labels = state.labels;
             for (const Relabel& r : patch)

@@ -1,4 +1,4 @@
-// marks.h: sets of indices for searches that visit few of many elements.
+// marks.h: sets of indices for searches that visit few of many elements, and fingerprints of what they met.
 #pragma once
 
 #include "polylab/base.h"
@@ -33,6 +33,16 @@ public:
 private:
     std::vector<Index> mark_;   // index -> first_ + its number, or less if it is not in the set
     Index first_ = 1, next_ = 1;
+};
+
+// A number for a list of others: FNV-1a, a word at a time. Two lists with the same one are taken for equal.
+class Fingerprint {
+public:
+    void mix(Index i) { value_ = (value_ ^ static_cast<std::uint32_t>(i)) * 1099511628211u; }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 14695981039346656037u;
 };
 
 // A set of few indices, in memory of its own size: for what a single search meets. A table with open addressing; nothing

@@ -35,7 +35,7 @@ Halfedges lost_features_at(const TriMesh& mesh, const State& state, Index outgoi
 std::vector<Index> region_between(const TriMesh& mesh, const State& state, Index chart, const std::vector<Index>& seeds,
                                   const Halfedges& walls);
 
-// The facets of a chart, increasing. O(n) at worst, but quicker than a facet's other costs
+// The facets of a chart, increasing. O(n): one look at each facet from the chart's smallest to its largest
 std::vector<Index> facets_of(const State& state, Index chart);
 
 // The facets of a chart at its side of a run of its border, one per half-edge, whichever way the run goes.

@@ -1,8 +1,8 @@
 // routines.h: Algorithms 1 and 2 of the paper (Section 7): first a valid labeling, then one without turning-points.
 //
 // differs: every step is kept only if the score improves (state.h), so the routines end, and end with the best labeling
-// seen. Monotonicity is attempted on whatever validity leaves. An element is tried again only if
-// something around it has changed, or if a later pass allows the loss that it was refused for.
+// seen. Monotonicity is attempted on whatever validity leaves. An element is tried again only if something
+// around it has changed, or if a later pass allows the loss that it was refused for.
 #pragma once
 
 #include "polylab/quality_operators.h"
@@ -34,6 +34,9 @@ struct RoutineOptions {
 // The best labeling found from `start`, never worse than it by the score, also when it is stopped.
 // Bounded: each kept step lowers the score, and a pass that keeps none is the last.
 State run_routines(const TriMesh& mesh, Labeling start, const RoutineOptions& options = {});
+
+// What all operators propose for all that is invalid; where nothing is, for the given turning-points.
+Proposals all_proposals(const TriMesh& mesh, const State& state, const std::vector<TurningPoint>& points);
 
 // A line per step: `operation element kept|refused proposals facets before… after…`, scores as `invalid turning-points loss`,
 // with `| ` in front inside sequences.

@@ -21,7 +21,7 @@ Labeling search_start(const TriMesh& mesh, int effort = kDefaultEffort, InitialO
 // effort 0: the paper's routines alone. 1: polish where they have changed something or a feature edge is lost. 2: if something
 // is invalid or turns, by our count or the published one, at up to 20 places, a best-first search: all operators at all that is
 // wrong with the labeling of the best score, whose proposals, whatever they cost, are searched likewise, each labeling once,
-// until nothing is wrong or 2000 proposals have been tried; then polish again. If that does not do, the same from such cuts of
+// until nothing is wrong or 1000 proposals have been tried; then polish again. If that does not do, the same from such cuts of
 // compactness 2, 3, 4, 6 and 10, until nothing is or 20000 proposals (20 per facet, if that is more) have been tried: then the
 // part itself is to blame. 3: from all of these in any case. The result is the one of the best score, where the published
 // turning-points stand before the loss.   tie: the first start. Up to six times the bounds of the routines, of polish twice, and

@@ -33,7 +33,7 @@ struct State {
 
 // A facet points away from its label where the cosine of normal and label is below this (fidelity 0.3): no mesher can use it.
 inline constexpr double kAway = -0.4;
-inline constexpr double kAwayLoss = 10;   // of such a facet, beyond its fidelity: more than the feature edges around it are worth
+inline constexpr double kAwayLoss = 10;   // of such a facet, beyond its fidelity
 
 // Derives states from labelings. The loss is the mean of (1 - fidelity) plus kLostWeight times the share of the kept
 // feature edges that are lost, in integers: a labeling may lose 1 % of the feature edges for 0.005 of mean fidelity.
