@@ -40,37 +40,78 @@ std::int64_t PottsEnergy::operator()(const Labeling& labels) const {
     return sum + twice / 2;
 }
 
-bool Expansion::move(Label alpha, Labeling& labels) {
-    const Index sites = energy_.sites();
-    sites_.resize(sites);
-    bool gains = false;
-    for (Index i = 0; i < sites; i++) {
-        const Label own = labels[i];
-        if (own == alpha) {
-            sites_[i].choice = Choice::keeps;
-            continue;
-        }
-        Index won = 0, weights = 0;   // by the edges: twice to a site with alpha, once to one with a third label
-        for (const PottsEnergy::Arc& arc : energy_.arcs[i]) {
-            const Label other = labels[arc.site];
-            won += arc.weight * (1 + (other == alpha) - (other == own));
-            weights += arc.weight;
-        }
-        const Index excess = 2 * (energy_.data[i][own] - energy_.data[i][alpha]) + won;
-        sites_[i] = {excess, 2 * weights - won, kNone, Choice::open};
-        gains |= excess > 0;
+void Expansion::begin(Labeling start) {
+    assert(static_cast<Index>(start.size()) == energy_.sites());
+    labels_ = std::move(start);
+    sites_.resize(labels_.size());
+    ready_.resize(labels_.size());
+    changed_.clear();
+    for (Index i = 0; i < energy_.sites(); i++) find_ready(i);
+}
+
+void Expansion::find_ready(Index i) {
+    const std::array<Index, kLabels>& data = energy_.data[i];
+    const Label own = labels_[i];
+    Index won[kLabels] = {}, around = 0;
+    for (const auto& [j, weight] : energy_.arcs[i]) {
+        if (labels_[j] == own) continue;
+        around += weight;
+        won[labels_[j]] += weight;
     }
-    if (!gains) return false;   // what all together would gain is at most the sum of their excess
-    queue_.clear();
-    for (Index i = 0; i < sites; i++)
-        if (sites_[i].choice == Choice::open) decide(i);
-    settle_edges(labels);
+    unsigned bits = 0;
+    for (Label l = 0; l < kLabels; l++) bits |= static_cast<unsigned>(2 * (data[own] - data[l]) + around + won[l] >= 0) << l;
+    ready_[i] = static_cast<unsigned char>(bits & ~(1u << own));
+}
+
+// What a site gains by alpha: twice an edge to a site with alpha, and half of twice an edge to a third label, see capacity().
+Index Expansion::excess(Index i, Label alpha) const {
+    const Label own = labels_[i];
+    Index sum = 2 * (energy_.data[i][own] - energy_.data[i][alpha]);
+    for (const auto& [j, weight] : energy_.arcs[i]) sum += weight * (1 + (labels_[j] == alpha) - (labels_[j] == own));
+    return sum;
+}
+
+bool Expansion::move(Label alpha) {
+    for (const Index i : changed_) find_ready(i);
+    changed_.clear();
+    grow_region(alpha);
+    settle_edges();
     collect_core();
-    if (!core_.empty()) solve_core(labels);
-    if (gain(alpha, labels) == 0) return false;
-    for (Index i = 0; i < sites; i++)
-        if (sites_[i].choice == Choice::takes) labels[i] = alpha;
-    return true;
+    if (!core_.empty()) solve_core();
+    const bool better = gain(alpha) > 0;
+    if (better) take(alpha);
+    for (const Index i : region_) sites_[i].choice = Choice::outside;
+    for (const Index i : beside_) sites_[i].choice = Choice::outside;
+    return better;
+}
+
+// Sites that do not get into the region lose more, all together, than all of the region's edges to them could spare.
+void Expansion::grow_region(Label alpha) {
+    region_.clear();
+    beside_.clear();
+    for (Index i = 0; i < energy_.sites(); i++) {
+        if ((ready_[i] >> alpha & 1) == 0) continue;
+        sites_[i] = {excess(i, alpha), 0, kNone, Choice::open};
+        region_.push_back(i);
+    }
+    for (std::size_t k = 0; k < region_.size(); k++) {
+        const Index i = region_[k];
+        for (const auto& [j, weight] : energy_.arcs[i]) {
+            if (weight == 0 || labels_[j] == alpha) continue;
+            Site& other = sites_[j];
+            if (other.choice == Choice::outside) {
+                other = {excess(j, alpha), 0, kNone, Choice::beside};
+                beside_.push_back(j);
+            }
+            other.around += capacity(weight, labels_[i], labels_[j]);
+            if (other.choice == Choice::open || other.around < -other.excess) continue;
+            other.choice = Choice::open;
+            region_.push_back(j);
+        }
+    }
+    for (const Index i : region_)
+        for (const auto& [j, weight] : energy_.arcs[i])
+            if (weight > 0 && sites_[j].choice == Choice::beside) sites_[i].excess -= capacity(weight, labels_[i], labels_[j]);
 }
 
 // Decides a site that its neighbours can't change any more.   tie: taking alpha
@@ -80,16 +121,18 @@ void Expansion::decide(Index i) {
     if (site.choice != Choice::open) queue_.push_back(i);
 }
 
-void Expansion::settle_edges(const Labeling& labels) {
+void Expansion::settle_edges() {
+    queue_.clear();
+    for (const Index i : region_) decide(i);
     for (std::size_t k = 0; k < queue_.size(); k++) {
         const Index i = queue_[k];
-        for (const PottsEnergy::Arc& arc : energy_.arcs[i]) {
-            Site& other = sites_[arc.site];
-            if (other.choice != Choice::open || arc.weight == 0) continue;
-            const Index c = capacity(arc.weight, labels[i], labels[arc.site]);
+        for (const auto& [j, weight] : energy_.arcs[i]) {
+            Site& other = sites_[j];
+            if (other.choice != Choice::open || weight == 0) continue;
+            const Index c = capacity(weight, labels_[i], labels_[j]);
             other.around -= c;
             other.excess += sites_[i].choice == Choice::takes ? c : -c;
-            decide(arc.site);
+            decide(j);
         }
     }
 }
@@ -97,7 +140,7 @@ void Expansion::settle_edges(const Labeling& labels) {
 // Groups of connected open sites, breadth-first, so that neighbours lie close together in the network.
 void Expansion::collect_core() {
     core_.clear();
-    for (Index seed = 0; seed < energy_.sites(); seed++) {
+    for (const Index seed : region_) {
         if (sites_[seed].choice != Choice::open) continue;
         const std::size_t begin = core_.size();
         bool gains = false, loses = false;
@@ -108,10 +151,10 @@ void Expansion::collect_core() {
             site.node = static_cast<Index>(k);
             gains |= site.excess > 0;
             loses |= site.excess < 0;
-            for (const PottsEnergy::Arc& arc : energy_.arcs[core_[k]]) {
-                if (sites_[arc.site].choice != Choice::open || arc.weight == 0) continue;
-                sites_[arc.site].choice = Choice::in_core;
-                core_.push_back(arc.site);
+            for (const auto& [j, weight] : energy_.arcs[core_[k]]) {
+                if (sites_[j].choice != Choice::open || weight == 0) continue;
+                sites_[j].choice = Choice::in_core;
+                core_.push_back(j);
             }
         }
         if (gains && loses) continue;
@@ -120,16 +163,16 @@ void Expansion::collect_core() {
     }
 }
 
-void Expansion::solve_core(const Labeling& labels) {
+void Expansion::solve_core() {
     const auto nodes = static_cast<Index>(core_.size());
     network_.reset(nodes);
     for (Index k = 0; k < nodes; k++) {
         const Index i = core_[k], excess = sites_[i].excess;
         network_.add_terminals(k, std::max(excess, 0), std::max(-excess, 0));
-        for (const PottsEnergy::Arc& arc : energy_.arcs[i]) {
-            const Site& other = sites_[arc.site];
-            if (other.choice != Choice::in_core || other.node <= k || arc.weight == 0) continue;
-            const Index c = capacity(arc.weight, labels[i], labels[arc.site]);
+        for (const auto& [j, weight] : energy_.arcs[i]) {
+            const Site& other = sites_[j];
+            if (weight == 0 || other.choice != Choice::in_core || other.node <= k) continue;
+            const Index c = capacity(weight, labels_[i], labels_[j]);
             network_.connect(k, other.node, c, c);
         }
     }
@@ -138,31 +181,42 @@ void Expansion::solve_core(const Labeling& labels) {
 }
 
 // Twice the energy that the move saves.
-std::int64_t Expansion::gain(Label alpha, const Labeling& labels) const {
+std::int64_t Expansion::gain(Label alpha) const {
     std::int64_t sum = 0;
-    for (Index i = 0; i < energy_.sites(); i++) {
+    for (const Index i : region_) {
         if (sites_[i].choice != Choice::takes) continue;
-        sum += 2 * (energy_.data[i][labels[i]] - energy_.data[i][alpha]);
-        for (const auto& [j, w] : energy_.arcs[i]) {
+        sum += 2 * (energy_.data[i][labels_[i]] - energy_.data[i][alpha]);
+        for (const auto& [j, weight] : energy_.arcs[i]) {
             const bool both = sites_[j].choice == Choice::takes;   // then the edge is met twice
-            sum += (labels[i] != labels[j] ? (both ? w : 2 * w) : 0) - (both || labels[j] == alpha ? 0 : 2 * w);
+            sum += (labels_[i] != labels_[j] ? (both ? weight : 2 * weight) : 0) - (both || labels_[j] == alpha ? 0 : 2 * weight);
         }
     }
     assert(sum >= 0);
     return sum;
 }
 
+void Expansion::take(Label alpha) {
+    for (const Index i : region_) {
+        if (sites_[i].choice != Choice::takes) continue;
+        labels_[i] = alpha;
+        changed_.push_back(i);
+        for (const PottsEnergy::Arc& arc : energy_.arcs[i])
+            if (sites_[arc.site].choice != Choice::takes) changed_.push_back(arc.site);
+    }
+}
+
 Labeling alpha_expansion(const PottsEnergy& energy, Labeling start, int cycles, const Stop& stop) {
     Expansion expansion(energy);
+    expansion.begin(std::move(start));
     bool changed = true;
     for (int cycle = 0; cycle < cycles && changed; cycle++) {
         changed = false;
         for (Label alpha = 0; alpha < kLabels; alpha++) {
-            if (stop && stop()) return start;
-            changed |= expansion.move(alpha, start);
+            if (stop && stop()) return expansion.labels();
+            changed |= expansion.move(alpha);
         }
     }
-    return start;
+    return expansion.labels();
 }
 
 }   // namespace polylab

@@ -71,11 +71,12 @@ Proposals Redraw::operator()(const State& state, const std::vector<Index>& facet
             }
             return static_cast<Index>(cost);
         });
+    expansion_.begin(std::move(labels_));
     for (Label l = 0; l < kLabels; l++)
-        if (occurs[l]) expansion_.move(l, labels_);
+        if (occurs[l]) expansion_.move(l);
     Patch patch;
     for (std::size_t i = 0; i < facets.size(); i++)
-        if (labels_[i] != state.labels[facets[i]]) patch.push_back({facets[i], labels_[i]});
+        if (expansion_.labels()[i] != state.labels[facets[i]]) patch.push_back({facets[i], expansion_.labels()[i]});
     std::sort(patch.begin(), patch.end(),
               [](const Relabel& a, const Relabel& b) { return a.facet < b.facet; });   // all different
     return patch.empty() ? Proposals{} : with_parts(mesh_, std::move(patch));

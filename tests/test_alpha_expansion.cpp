@@ -65,7 +65,16 @@ Labeling naive_expansion(const PottsEnergy& energy, Labeling labels, int cycles)
     return labels;
 }
 
-bool expand(const PottsEnergy& energy, Label alpha, Labeling& labels) { return Expansion(energy).move(alpha, labels); }
+bool expand(Expansion& expansion, Label alpha, Labeling& labels) {
+    expansion.begin(labels);
+    const bool changed = expansion.move(alpha);
+    labels = expansion.labels();
+    return changed;
+}
+bool expand(const PottsEnergy& energy, Label alpha, Labeling& labels) {
+    Expansion expansion(energy);
+    return expand(expansion, alpha, labels);
+}
 
 }   // namespace
 
@@ -139,7 +148,7 @@ TEST_CASE("alpha expansion: every move is the best one, ties going to alpha") {
         for (Label alpha = 0; alpha < kLabels; alpha++) {
             const Labeling expected = best_move(energy, alpha, start);
             Labeling labels = start;
-            const bool changed = expansion.move(alpha, labels);
+            const bool changed = expand(expansion, alpha, labels);
             failures += labels != expected || changed != (expected != start);
             CAPTURE(round);
             CHECK(labels == expected);
@@ -192,7 +201,7 @@ TEST_CASE("alpha expansion: the energy goes down with every move that is made") 
             changed = false;
             for (Label alpha = 0; alpha < kLabels; alpha++) {
                 const Labeling before = labels;
-                if (expansion.move(alpha, labels)) {
+                if (expand(expansion, alpha, labels)) {
                     changed = true;
                     CHECK(energy(labels) < energy(before));
                     for (Index i = 0; i < n; i++) CHECK((labels[i] == before[i] || labels[i] == alpha));

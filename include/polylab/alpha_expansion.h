@@ -32,42 +32,58 @@ struct PottsEnergy {
     std::int64_t operator()(const Labeling& labels) const;
 };
 
-// The moves of an energy, which stays the caller's and may change between moves. A site on the source side of the cut takes
-// alpha, one on the sink side keeps its label. Most sites are decided before the max-flow: one whose own gain outweighs all of
-// its edges takes alpha whatever its neighbours do, and one whose loss does keeps its label; that settles its edges, and may
-// decide its neighbours. Of the rest, connected sites of which none would lose by alpha take it, and of which none would gain
-// keep. What is left is cut out of the network and solved by max-flow. All of this is exact. port: any exact construction gives
-// the same moves, since the minimum cut with the largest source side is unique.
+// The moves of an energy, which stays the caller's. A site on the source side of the cut takes alpha, one on the sink side keeps
+// its label. Work goes only where something can change, and all of it is exact:
+// - Connected sites that take alpha gain by it only if one of them would not lose, edges between them aside. From the sites
+//   that would not, a region grows as long as what it could spare for a neighbour makes up for the neighbour's loss.
+// - In the region, a site whose own gain outweighs all of its edges takes alpha whatever its neighbours do, and one whose loss
+//   does keeps its label; that settles its edges, and may decide its neighbours.
+// - Of the rest, connected sites of which none would lose by alpha take it, and of which none would gain keep.
+// - What is left is cut out of the network and solved by max-flow.
+// port: any exact construction gives the same moves, since the minimum cut with the largest source side is unique.
 class Expansion {
 public:
     explicit Expansion(const PottsEnergy& energy) : energy_(energy) {}
 
-    // The best move towards alpha from `labels`: applied, and true returned, if its energy is lower than before.
-    // tie: among the moves of least energy, the one in which most sites take alpha. O(sites), and one max-flow.
-    bool move(Label alpha, Labeling& labels);
+    // Before the first move, and after the energy has changed. O(sites)
+    void begin(Labeling start);
+    const Labeling& labels() const { return labels_; }
+
+    // The best move towards alpha: made, and true returned, if its energy is lower than before.
+    // tie: among the moves of least energy, the one in which most sites take alpha. O(region), one max-flow, and a glance at
+    // every site.
+    bool move(Label alpha);
 
 private:
-    enum class Choice : char { open, takes, keeps, in_core };
+    enum class Choice : char { outside, beside, open, takes, keeps, in_core };   // outside the region and beside it they keep
     // All costs doubled.
     struct Site {
-        Index excess;   // what it gains by alpha, with the edges to decided sites
-        Index around;   // capacity of its edges to open sites
-        Index node;     // its number in core_
-        Choice choice;
+        Index excess = 0;   // what it gains by alpha, with the edges to decided sites
+        Index around = 0;   // capacity of its edges to open sites, or to the region from beside it
+        Index node = 0;     // its number in core_
+        Choice choice = Choice::outside;
     };
 
+    void find_ready(Index i);
+    Index excess(Index i, Label alpha) const;
+    void grow_region(Label alpha);
     void decide(Index i);
-    void settle_edges(const Labeling& labels);
+    void settle_edges();
     void collect_core();
-    void solve_core(const Labeling& labels);
-    std::int64_t gain(Label alpha, const Labeling& labels) const;
+    void solve_core();
+    std::int64_t gain(Label alpha) const;
+    void take(Label alpha);
 
     const PottsEnergy& energy_;
+    Labeling labels_;
+    std::vector<unsigned char> ready_;   // site -> a bit for each label that it would not lose by, edges between takers aside
+    std::vector<Index> changed_;         // sites for which that has to be found again
 
     // Of the current move:
     std::vector<Site> sites_;
-    std::vector<Index> queue_;   // decided sites, whose neighbours have to be told
-    std::vector<Index> core_;    // the sites that max-flow decides
+    std::vector<Index> region_, beside_;   // the sites that may take alpha, and their neighbours
+    std::vector<Index> queue_;             // decided sites, whose neighbours have to be told
+    std::vector<Index> core_;              // the sites that max-flow decides
     MaxFlow network_;
 };
 
