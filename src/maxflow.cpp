@@ -18,7 +18,8 @@ void MaxFlow::reset(Index nodes) {
     arcs_.resize(3 * static_cast<std::size_t>(nodes));
     for (Index arc = 0; arc < 3 * nodes; arc++) arcs_[arc] = {arc / 3, arc, 0, 0};
     nodes_.assign(nodes, Node{});
-    active_.resize(nodes);
+    terminal_.assign(nodes, 0);
+    active_.resize(nodes + 1);
     level_.resize(nodes);
     active_begin_ = active_count_ = 0;
     orphans_.clear();
@@ -42,11 +43,11 @@ void MaxFlow::connect(Index a, Index b, Index there, Index back) {
 void MaxFlow::add_terminals(Index node, Index from_source, Index to_sink) {
     assert(from_source >= 0 && to_sink >= 0);
     // What goes straight through the node is flow already; terminal_ holds what is left at one of its sides.
-    const std::int64_t terminal = nodes_[node].terminal;
+    const std::int64_t terminal = terminal_[node];
     const std::int64_t source = from_source + std::max<std::int64_t>(terminal, 0),
                        sink = to_sink + std::max<std::int64_t>(-terminal, 0);
     flow_ += std::min(source, sink);
-    nodes_[node].terminal = source - sink;
+    terminal_[node] = source - sink;
 }
 
 // Moves what the sources have (Sign 1) towards the sinks, or what the sinks lack (-1) towards the sources: all of it at
@@ -60,16 +61,16 @@ std::int64_t MaxFlow::sweep() {
     const bool all_met = find_levels<Sign>(false);
     std::int64_t moved = 0;
     for (std::size_t k = active_count_; k-- > 0;) {
-        const Index i = active_[k], nearer = level_[i] - 1;
-        Node& node = nodes_[i];
-        for (Index arc = 3 * i; arc < 3 * i + 3 && Sign * node.terminal > 0; arc++) {
-            if (level_[arcs_[arc].head] != nearer || nearer < 0) continue;
-            Node& other = nodes_[arcs_[arc].head];
-            const auto amount = static_cast<Index>(std::min<std::int64_t>(Sign * node.terminal, from_root(arc, kFrom)));
+        const Index i = active_[k];
+        std::int64_t& own = terminal_[i];
+        for (Index arc = 3 * i; arc < 3 * i + 3 && Sign * own > 0; arc++) {
+            if (static_cast<std::uint32_t>(level_[arcs_[arc].head]) >= k) continue;
+            std::int64_t& other = terminal_[arcs_[arc].head];
+            const auto amount = static_cast<Index>(std::min<std::int64_t>(Sign * own, from_root(arc, kFrom)));
             push(arc, Sign * amount);
-            if (Sign * other.terminal < 0) flow_ += std::min<std::int64_t>(amount, -Sign * other.terminal);
-            node.terminal -= Sign * amount;
-            other.terminal += Sign * amount;
+            if (Sign * other < 0) flow_ += std::min<std::int64_t>(amount, -Sign * other);
+            own -= Sign * amount;
+            other += Sign * amount;
             moved += amount;
         }
     }
@@ -86,21 +87,26 @@ bool MaxFlow::find_levels(bool all) {
     constexpr Tree kFrom = Sign > 0 ? Tree::source : Tree::sink;
     Index waiting = all;
     for (const Index i : within_) {
-        const std::int64_t terminal = Sign * nodes_[i].terminal;
-        level_[i] = terminal < 0 ? 0 : kNone;
-        if (terminal < 0) active_[active_count_++] = i;
+        const std::int64_t terminal = Sign * terminal_[i];
+        level_[i] = terminal > 0 ? kWaiting : kNone;
         waiting += terminal > 0;
+        if (terminal >= 0) continue;
+        level_[i] = static_cast<Index>(active_count_);
+        active_[active_count_++] = i;
     }
-    for (std::size_t k = 0; k < active_count_ && waiting > 0; k++) {
-        const Index near = active_[k], level = level_[near] + 1;
-        for (Index arc = 3 * near; arc < 3 * near + 3; arc++) {
-            const Index other = arcs_[arc].head;
-            if (level_[other] != kNone || toward_root(arc, kFrom) == 0) continue;
-            level_[other] = level;
-            active_[active_count_++] = other;
-            waiting -= Sign * nodes_[other].terminal > 0;
+    std::size_t count = active_count_;
+    for (std::size_t k = 0; k < count && waiting > 0; k++) {
+        const Index near = active_[k];
+        for (Index arc = 3 * near; arc < 3 * near + 3; arc++) {   // without branches, which nothing could foretell
+            const Index other = arcs_[arc].head, level = level_[other];
+            const bool met = (level == kNone || level == kWaiting) & (toward_root(arc, kFrom) != 0);
+            level_[other] = met ? static_cast<Index>(count) : level;
+            active_[count] = other;
+            count += met;
+            waiting -= met & (level == kWaiting);
         }
     }
+    active_count_ = count;
     return waiting == 0;
 }
 
@@ -108,7 +114,7 @@ bool MaxFlow::find_levels(bool all) {
 // it opens no way to them.
 void MaxFlow::set_apart() {
     for (const Index i : within_)
-        if (level_[i] == kNone) level_[i] = kApart;
+        if (level_[i] < 0) level_[i] = kApart;
     within_.assign(active_.begin(), active_.begin() + static_cast<std::ptrdiff_t>(active_count_));
 }
 
@@ -123,8 +129,8 @@ std::int64_t MaxFlow::solve() {
     for (Index i = 0; i < nodes(); i++)
         if (level_[i] == kApart) nodes_[i].tree = Tree::apart;
     for (const Index i : within_) {
-        if (nodes_[i].terminal == 0) continue;
-        nodes_[i].tree = nodes_[i].terminal > 0 ? Tree::source : Tree::sink;
+        if (terminal_[i] == 0) continue;
+        nodes_[i].tree = terminal_[i] > 0 ? Tree::source : Tree::sink;
         nodes_[i].parent = kRoot;
         nodes_[i].distance = 1;
         activate(i);
@@ -199,7 +205,7 @@ void MaxFlow::augment(Index arc) {
         Index i = end;
         for (; nodes_[i].parent != kRoot; i = arcs_[nodes_[i].parent].head)
             amount = std::min(amount, toward_root(nodes_[i].parent, nodes_[i].tree));
-        amount = static_cast<Index>(std::min<std::int64_t>(amount, std::abs(nodes_[i].terminal)));
+        amount = static_cast<Index>(std::min<std::int64_t>(amount, std::abs(terminal_[i])));
     }
     augmentations_++;
     flow_ += amount;
@@ -212,8 +218,8 @@ void MaxFlow::augment(Index arc) {
             if (toward_root(up, nodes_[i].tree) == 0) make_orphan(i);
             i = arcs_[up].head;
         }
-        nodes_[i].terminal -= nodes_[i].terminal > 0 ? amount : -amount;
-        if (nodes_[i].terminal == 0) make_orphan(i);
+        terminal_[i] -= terminal_[i] > 0 ? amount : -amount;
+        if (terminal_[i] == 0) make_orphan(i);
     }
 }
 

@@ -38,7 +38,7 @@ public:
 
     // Whether the node belongs to the largest source side of a minimum cut. After solve().
     // tie: a node that fits both sides is on the source side
-    bool on_source_side(Index node) const { return level_[node] == kNone; }
+    bool on_source_side(Index node) const { return level_[node] < 0; }
 
 private:
     enum class Tree : char { none, source, sink, apart };   // apart: no path from a source to a sink goes through the node
@@ -65,17 +65,17 @@ private:
         Index back;       // that of the sister, kept here too: searches go both ways, and need not look there
     };
     struct Node {
-        std::int64_t terminal = 0;   // residual capacity from the source (> 0) or to the sink (< 0)
         Index parent = kNone;        // arc to its parent, or kRoot, kOrphan, kNone
         Index stamp = 0;             // augmentation after which its distance was found
         Index distance = 0;          // number of arcs to its terminal, at that time
         Tree tree = Tree::none;      // search tree it belongs to
         bool queued = false;         // in active_
     };
-    static constexpr Index kApart = -2;   // level of a node that is apart
+    static constexpr Index kWaiting = -2, kApart = -3;   // level of a node that is apart
 
     std::vector<Arc> arcs_;   // those of node i are 3i, 3i + 1, 3i + 2
     std::vector<Node> nodes_;
+    std::vector<std::int64_t> terminal_;   // node -> residual capacity from the source (> 0) or to the sink (< 0)
 
     std::vector<Index> level_;    // node -> number of arcs to the nearest terminal that a sweep goes to, kNone, or kApart
     std::vector<Index> within_;   // the nodes that are not apart
