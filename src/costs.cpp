@@ -12,10 +12,10 @@ double exponent(double x, double sigma) {
     return 0.5 * (t * t);
 }
 
-// exp(-exponent). At its top the value is 1 or less than 1 by whether the exponent is below 2^-54: for any good exp.
+// exp(-exponent). Up to 2^-54 it rounds to 1.
 double gaussian(double exponent) {
     audit("top of a bell, relative", std::abs(exponent / 0x1p-54 - 1));
-    return std::exp(-exponent);
+    return exponent <= 0x1p-54 ? 1 : std::exp(-exponent);
 }
 
 // Exponents from kTail to kFarTail need no exp for scales up to 10^5: scale * exp(-12) < 1, and 1 - exp(-34) is still
@@ -34,14 +34,12 @@ int truncated(double cost, double top) {
 
 int bell_cost(double x, double sigma, int scale) {
     const double e = exponent(x, sigma);
-    if (e == 0) return scale;
     if (e >= kTail && scale <= kLargestScale) return 0;
     return truncated(scale * gaussian(e), scale);
 }
 
 int well_cost(double x, double sigma, int scale) {
     const double e = exponent(x, sigma);
-    if (e == 0) return 0;
     if (e >= kNothing) return scale;
     if (e >= kTail && e <= kFarTail && scale > 0 && scale <= kLargestScale) return scale - 1;
     return truncated(scale * (1 - gaussian(e)), scale);

@@ -131,6 +131,7 @@ private:
         band_ = std::move(facets);
         in_.clear(mesh_.facets());
         for (const Index f : band_) in_.insert(f);
+        touched_.clear(mesh_.vertices());
         inner_ = 0;
     }
     void widen_band(int rings) {
@@ -138,8 +139,10 @@ private:
             const std::size_t end = band_.size();
             for (; inner_ < end; inner_++)
                 for (Index h = 3 * band_[inner_]; h < 3 * band_[inner_] + 3; h++)
-                    for (Index around = mesh_.cw(h); around != h; around = mesh_.cw(around))
-                        if (in_.insert(facet(around))) band_.push_back(facet(around));
+                    if (touched_.insert(mesh_.from(h)))
+                        mesh_.for_each_leaving(mesh_.from(h), [&](Index around) {
+                            if (in_.insert(facet(around))) band_.push_back(facet(around));
+                        });
         }
     }
 
@@ -302,7 +305,7 @@ private:
     State state_;
     Index proposals_tried_ = 0;
     std::set<std::uint64_t> tried_;
-    Marks near_, in_, turned_;
+    Marks near_, in_, turned_, touched_;
     std::vector<Index> band_;
     std::size_t inner_ = 0;   // so many facets of the band have all that touch them in it
     Marks face_tried_;        // the faces tried since something has changed
