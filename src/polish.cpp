@@ -15,37 +15,6 @@ constexpr int kBandCompactness[] = {0, 3};   // 0: every facet by itself; the sc
 constexpr double kAcross = 0.1;   // cosine of normal and label, 84 degrees: below this the facet stands across its label
 constexpr Index kMostPolishProposals = 20000;   // as in the routines; parts need up to 3000
 
-// Where i stands in a sorted list, or kNone.
-Index place(const std::vector<Index>& sorted, Index i) {
-    const auto at = std::lower_bound(sorted.begin(), sorted.end(), i);
-    return at != sorted.end() && *at == i ? static_cast<Index>(at - sorted.begin()) : kNone;
-}
-
-// The patch, whose facets increase, and its edge-connected parts if there are several.
-Proposals with_parts(const TriMesh& mesh, Patch patch) {
-    std::vector<Index> facets;
-    for (const Relabel& r : patch) facets.push_back(r.facet);
-    std::vector<char> seen(facets.size(), 0);
-    Proposals proposals;
-    for (std::size_t first = 0; first < facets.size(); first++) {
-        if (seen[first]) continue;
-        seen[first] = 1;
-        Patch part = {patch[first]};
-        for (std::size_t i = 0; i < part.size(); i++) {
-            const Index f = part[i].facet;
-            for (Index h = 3 * f; h < 3 * f + 3; h++) {
-                const Index at = place(facets, mesh.right(h));
-                if (at == kNone || seen[at]) continue;
-                seen[at] = 1;
-                part.push_back(patch[at]);
-            }
-        }
-        proposals.push_back(std::move(part));
-    }
-    if (proposals.size() > 1) proposals.insert(proposals.begin(), std::move(patch));
-    return proposals;
-}
-
 }   // namespace
 
 Proposals Redraw::operator()(const State& state, const std::vector<Index>& facets, int compactness) {
@@ -74,12 +43,36 @@ Proposals Redraw::operator()(const State& state, const std::vector<Index>& facet
     expansion_.begin(std::move(labels_));
     for (Label l = 0; l < kLabels; l++)
         if (occurs[l]) expansion_.move(l);
-    Patch patch;
-    for (std::size_t i = 0; i < facets.size(); i++)
-        if (expansion_.labels()[i] != state.labels[facets[i]]) patch.push_back({facets[i], expansion_.labels()[i]});
-    std::sort(patch.begin(), patch.end(),
-              [](const Relabel& a, const Relabel& b) { return a.facet < b.facet; });   // all different
-    return patch.empty() ? Proposals{} : with_parts(mesh_, std::move(patch));
+    return changes(state, facets);
+}
+
+Proposals Redraw::changes(const State& state, const std::vector<Index>& facets) const {
+    const Labeling& labels = expansion_.labels();
+    std::vector<char> differs(facets.size());
+    Patch all;
+    for (std::size_t i = 0; i < facets.size(); i++) {
+        differs[i] = labels[i] != state.labels[facets[i]];
+        if (differs[i]) all.push_back({facets[i], labels[i]});
+    }
+    std::sort(all.begin(), all.end(), [](const Relabel& a, const Relabel& b) { return a.facet < b.facet; });   // all different
+    Proposals parts;
+    for (const Relabel& seed : all) {
+        std::vector<Index> sites = {sites_.number(seed.facet)};
+        if (!differs[sites[0]]) continue;   // in a part already
+        differs[sites[0]] = 0;
+        Patch part;
+        for (std::size_t i = 0; i < sites.size(); i++) {
+            part.push_back({facets[sites[i]], labels[sites[i]]});
+            for (const PottsEnergy::Arc& arc : energy_.arcs[sites[i]]) {
+                if (!differs[arc.site]) continue;
+                differs[arc.site] = 0;
+                sites.push_back(arc.site);
+            }
+        }
+        parts.push_back(std::move(part));
+    }
+    if (parts.size() > 1) parts.insert(parts.begin(), std::move(all));
+    return parts;
 }
 
 namespace {

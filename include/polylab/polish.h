@@ -24,6 +24,8 @@ public:
     Proposals operator()(const State& state, const std::vector<Index>& facets, int compactness);
 
 private:
+    Proposals changes(const State& state, const std::vector<Index>& facets) const;
+
     const TriMesh& mesh_;
     std::map<int, std::vector<std::int16_t>> pairwise_;   // compactness -> half-edge -> cost, kNone where not asked for yet
 
