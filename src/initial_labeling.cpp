@@ -15,11 +15,11 @@ constexpr Index kLockCost = 100000;   // published code
 
 bool is_to_tilt(const Vec3& n, double sensitivity) {
     // Of two opposite labels one has weight 0, so the two largest weights are the two largest components.
-    double c[3] = {std::abs(n.x), std::abs(n.y), std::abs(n.z)};
-    std::sort(c, c + 3);
-    audit("facet to tilt", std::abs(c[2] - c[1] - sensitivity));
-    audit(c[2] - c[1] < sensitivity ? "naive label of tilted facets" : "naive label of the others", c[2] - c[1]);
-    return c[2] - c[1] < sensitivity;
+    const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
+    const double largest = std::max({x, y, z}), second = std::max(std::min(x, y), std::min(std::max(x, y), z));
+    audit("facet to tilt", std::abs(largest - second - sensitivity));
+    audit(largest - second < sensitivity ? "naive label of tilted facets" : "naive label of the others", largest - second);
+    return largest - second < sensitivity;
 }
 
 }   // namespace

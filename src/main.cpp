@@ -315,8 +315,8 @@ int run_label(const Arguments& arguments) {
     write_files(outputs);
     console.say(summary(result.statistics));
     console.say((output == "-" ? "labels written" : "labels written to " + output) + " after " + watch.seconds());
-    const std::string advice = hint(mesh);
-    if (status_of(result.statistics) == kNotValid && !advice.empty()) console.say("hint: " + advice);
+    if (const std::string advice = status_of(result.statistics) == kNotValid ? hint(mesh) : ""; !advice.empty())
+        console.say("hint: " + advice);
     if (interrupted()) {
         console.warn("interrupted: these are the best labels so far");
         return kNotValid;

@@ -18,7 +18,7 @@ constexpr Index kMostPolishProposals = 20000;   // as in the routines; parts nee
 }   // namespace
 
 Proposals Redraw::operator()(const State& state, const std::vector<Index>& facets, int compactness) {
-    bool occurs[kLabels] = {};
+    Occurs occurs = {};
     labels_.clear();
     sites_.clear(mesh_.facets());
     for (const Index f : facets) {
@@ -27,11 +27,20 @@ Proposals Redraw::operator()(const State& state, const std::vector<Index>& facet
         occurs[state.labels[f]] = true;
         for (Index h = 3 * f; h < 3 * f + 3; h++) occurs[state.labels[mesh_.right(h)]] = true;
     }
+    if (compactness == 0)
+        cut_without_edges(facets, occurs);
+    else
+        cut(state, facets, occurs, compactness);
+    return changes(state, facets);
+}
+
+Index Redraw::data_cost(Index f, Label l) const { return static_cast<Index>(kDataScale * (1 - along(mesh_.normal[f], l)) + 0.5); }
+
+void Redraw::cut(const State& state, const std::vector<Index>& facets, const Occurs& occurs, int compactness) {
     std::vector<std::int16_t>& pairwise = pairwise_[compactness];
     pairwise.resize(mesh_.halfedges(), kNone);
     set_local_energy(
-        energy_, mesh_, state.labels, facets, sites_,
-        [&](Index f, Label l) { return static_cast<Index>(kDataScale * (1 - along(mesh_.normal[f], l)) + 0.5); },
+        energy_, mesh_, state.labels, facets, sites_, [&](Index f, Label l) { return data_cost(f, l); },
         [&](Index h) {
             std::int16_t& cost = pairwise[mesh_.edge(h)];
             if (cost == kNone) {
@@ -40,19 +49,35 @@ Proposals Redraw::operator()(const State& state, const std::vector<Index>& facet
             }
             return static_cast<Index>(cost);
         });
-    expansion_.begin(std::move(labels_));
+    expansion_.begin(labels_);
     for (Label l = 0; l < kLabels; l++)
         if (occurs[l]) expansion_.move(l);
-    return changes(state, facets);
+    labels_ = expansion_.labels();
+}
+
+// The same moves where edges cost nothing, so that every facet decides for itself.
+void Redraw::cut_without_edges(const std::vector<Index>& facets, const Occurs& occurs) {
+    costs_.clear();
+    for (std::size_t i = 0; i < facets.size(); i++) costs_.push_back(data_cost(facets[i], labels_[i]));
+    for (Label l = 0; l < kLabels; l++) {
+        if (!occurs[l]) continue;
+        bool gains = false;
+        for (std::size_t i = 0; i < facets.size() && !gains; i++) gains = data_cost(facets[i], l) < costs_[i];
+        for (std::size_t i = 0; i < facets.size() && gains; i++) {
+            const Index cost = data_cost(facets[i], l);
+            if (cost > costs_[i]) continue;   // tie: taking it, as in all moves
+            costs_[i] = cost;
+            labels_[i] = l;
+        }
+    }
 }
 
 Proposals Redraw::changes(const State& state, const std::vector<Index>& facets) const {
-    const Labeling& labels = expansion_.labels();
     std::vector<char> differs(facets.size());
     Patch all;
     for (std::size_t i = 0; i < facets.size(); i++) {
-        differs[i] = labels[i] != state.labels[facets[i]];
-        if (differs[i]) all.push_back({facets[i], labels[i]});
+        differs[i] = labels_[i] != state.labels[facets[i]];
+        if (differs[i]) all.push_back({facets[i], labels_[i]});
     }
     std::sort(all.begin(), all.end(), [](const Relabel& a, const Relabel& b) { return a.facet < b.facet; });   // all different
     Proposals parts;
@@ -62,11 +87,13 @@ Proposals Redraw::changes(const State& state, const std::vector<Index>& facets) 
         differs[sites[0]] = 0;
         Patch part;
         for (std::size_t i = 0; i < sites.size(); i++) {
-            part.push_back({facets[sites[i]], labels[sites[i]]});
-            for (const PottsEnergy::Arc& arc : energy_.arcs[sites[i]]) {
-                if (!differs[arc.site]) continue;
-                differs[arc.site] = 0;
-                sites.push_back(arc.site);
+            const Index f = facets[sites[i]];
+            part.push_back({f, labels_[sites[i]]});
+            for (Index h = 3 * f; h < 3 * f + 3; h++) {
+                const Index beside = sites_.number(mesh_.right(h));
+                if (beside == kNone || !differs[beside]) continue;
+                differs[beside] = 0;
+                sites.push_back(beside);
             }
         }
         parts.push_back(std::move(part));

@@ -6,6 +6,7 @@
 
 #include "polylab/routines.h"
 
+#include <array>
 #include <map>
 #include <vector>
 
@@ -24,6 +25,11 @@ public:
     Proposals operator()(const State& state, const std::vector<Index>& facets, int compactness);
 
 private:
+    using Occurs = std::array<bool, kLabels>;
+
+    Index data_cost(Index f, Label l) const;
+    void cut(const State& state, const std::vector<Index>& facets, const Occurs& occurs, int compactness);
+    void cut_without_edges(const std::vector<Index>& facets, const Occurs& occurs);
     Proposals changes(const State& state, const std::vector<Index>& facets) const;
 
     const TriMesh& mesh_;
@@ -32,7 +38,8 @@ private:
     // Memory of a call.
     Marks sites_;
     PottsEnergy energy_;
-    Labeling labels_;
+    Labeling labels_;   // of the facets
+    std::vector<Index> costs_;
     Expansion expansion_;
 };
 
