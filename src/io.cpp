@@ -52,7 +52,7 @@ private:
 
     void read_vertex() {
         Vec3 p;
-        for (int a = 0; a < 3; a++) p[a] = in_.to_number(in_.token_in_line(), "a coordinate");
+        for (int a = 0; a < 3; a++) p[a] = in_.number_in_line("a coordinate");
         data_.points.push_back(p);
     }
 

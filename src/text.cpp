@@ -200,19 +200,25 @@ inline CharacterKind kind(char c) { return kCharacterKind[static_cast<unsigned c
 
 }   // namespace
 
-void Scanner::skip_blanks() {
-    while (at_ < text_.size() && kind(text_[at_]) == CharacterKind::blank) at_++;
-    if (at_ < text_.size() && text_[at_] == '#')
-        while (at_ < text_.size() && kind(text_[at_]) != CharacterKind::line_end) at_++;
+inline void Scanner::skip_blanks() {
+    const std::size_t size = text_.size();
+    std::size_t at = at_;
+    while (at < size && kind(text_[at]) == CharacterKind::blank) at++;
+    if (at < size && text_[at] == '#')
+        while (at < size && kind(text_[at]) != CharacterKind::line_end) at++;
+    at_ = at;
 }
 
 std::string_view Scanner::token_in_line() {
     skip_blanks();
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && kind(text_[at_]) == CharacterKind::ordinary) at_++;
+    const std::size_t begin = at_, size = text_.size();
+    std::size_t end = begin;
+    while (end < size && kind(text_[end]) == CharacterKind::ordinary) end++;
     // A run of zero bytes is a (wrong) token of its own.
-    while (at_ == begin && at_ < text_.size() && kind(text_[at_]) == CharacterKind::zero) at_++;
-    return text_.substr(begin, at_ - begin);
+    if (end == begin)
+        while (end < size && kind(text_[end]) == CharacterKind::zero) end++;
+    at_ = end;
+    return text_.substr(begin, end - begin);
 }
 
 Index Scanner::plain_index_in_line() {
@@ -258,12 +264,12 @@ void read_digits(std::string_view t, std::size_t& at, std::uint64_t& number, int
 
 // What most files hold: up to 2^53 times or divided by a power of ten up to 10^22. Both are doubles, so that the one
 // operation rounds correctly (W. D. Clinger. How to Read Floating Point Numbers Accurately. PLDI 1990). Anything else,
-// right or wrong, is left to from_chars: false.
-bool read_simple(std::string_view t, double& x) {
-    std::size_t at = 0;
+// right or wrong, is left to from_chars: false, and `first` stays.
+bool read_simple(std::string_view t, std::size_t& first, double& x) {
+    std::size_t at = first;
     std::uint64_t mantissa = 0;
     int digits = 0, after_point = 0;
-    const bool negative = !t.empty() && t[0] == '-';
+    const bool negative = at < t.size() && t[at] == '-';
     if (negative) at++;
     read_digits(t, at, mantissa, digits);
     if (at < t.size() && t[at] == '.') {
@@ -271,19 +277,31 @@ bool read_simple(std::string_view t, double& x) {
         read_digits(t, ++at, mantissa, digits);
         after_point = digits - before;
     }
-    if (at != t.size() || digits == 0 || digits > 18 || mantissa > std::uint64_t{1} << 53) return false;
+    const bool ends = at == t.size() || kind(t[at]) != CharacterKind::ordinary;
+    if (!ends || digits == 0 || digits > 18 || mantissa > std::uint64_t{1} << 53) return false;
     x = static_cast<double>(mantissa) / kPowerOfTen[after_point];
     if (negative) x = -x;
+    first = at;
     return true;
 }
 
 }   // namespace
 
+double Scanner::number_in_line(const char* what) {
+    skip_blanks();
+    double x = 0;
+    return read_simple(text_, at_, x) ? x : to_number(token_in_line(), what);
+}
+
+double Scanner::number(const char* what) {
+    for (skip_blanks(); at_ < text_.size() && kind(text_[at_]) == CharacterKind::line_end; skip_blanks()) next_line();
+    return number_in_line(what);
+}
+
 double Scanner::to_number(std::string_view token, const char* what) const {
     std::string_view digits = token;
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
     double x = 0;
-    if (read_simple(digits, x)) return x;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
     if (error == std::errc::result_out_of_range && end == digits.data() + digits.size()) {
         if (below_one(digits)) return 0;   // gmsh writes such noise; too large a number is an error

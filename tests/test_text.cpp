@@ -90,7 +90,11 @@ std::uint64_t bits(double x) {
     return b;
 }
 
-double number(const std::string& token) { return Scanner("", "f").to_number(token, "a number"); }
+double number(const std::string& token) {
+    const double x = Scanner("", "f").to_number(token, "a number");
+    CHECK(bits(Scanner(" " + token + "\n", "f").number("a number")) == bits(x));
+    return x;
+}
 Index integer(const std::string& token) { return Scanner("", "f").to_integer(token, "an integer"); }
 
 }   // namespace
@@ -201,7 +205,9 @@ TEST_CASE("text: what is not a finite number is refused") {
     for (std::string token; more >> token;) tokens.push_back(token);
     for (const std::string& token : tokens) {
         CAPTURE(token);
-        CHECK(begins(error_of([&] { number(token); }), "f:1: expected a number, found "));
+        const std::string error = error_of([&] { number(token); });
+        CHECK(begins(error, "f:1: expected a number, found "));
+        if (!token.empty()) CHECK(error_of([&] { Scanner(token + "\n", "f").number("a number"); }) == error);
     }
 }
 
@@ -412,7 +418,6 @@ TEST_CASE("text: a dash is standard output and standard input") {
 
 TEST_CASE("text: numbers are those of from_chars, also on the short way") {
     shapes::Lcg random(14);
-    const Scanner in("", "x");
     for (int round = 0; round < 200000; round++) {
         std::string token = random.below(3) == 0 ? "-" : "";
         const Index digits = 1 + random.below(22), point = random.below(24);
@@ -423,7 +428,7 @@ TEST_CASE("text: numbers are those of from_chars, also on the short way") {
         if (random.below(8) == 0) token += "e-" + std::to_string(random.below(30));
         double expected = 0;
         std::from_chars(token.data(), token.data() + token.size(), expected);
-        const double x = in.to_number(token, "a number");
+        const double x = Scanner(random.below(2) == 0 ? token : token + " 1", "x").number_in_line("a number");
         if (x != expected || std::signbit(x) != std::signbit(expected)) FAIL_CHECK(token);
     }
 }

@@ -41,8 +41,9 @@ public:
     // Steps over the rest of the line; false at the end of the file.
     bool next_line();
 
-    // The next token (of the file) as a number. `what` names it in errors: "expected `what`, found …".
-    double number(const char* what) { return to_number(token(), what); }
+    // The next token of the file, or of the current line, as a number. `what` names it in errors: "expected `what`, found …".
+    double number(const char* what);
+    double number_in_line(const char* what);
     Index integer(const char* what) { return to_integer(token(), what); }
 
     // A token as a number: the whole token, correctly rounded, finite. A leading '+' is allowed.
