@@ -40,7 +40,7 @@ void Redraw::cut(const State& state, const std::vector<Index>& facets, const Occ
     std::vector<std::int16_t>& pairwise = pairwise_[compactness];
     pairwise.resize(mesh_.halfedges(), kNone);
     set_local_energy(
-        energy_, mesh_, state.labels, facets, sites_, [&](Index f, Label l) { return data_cost(f, l); },
+        energy_, mesh_, state.labels, facets, sites_, [&](Index f, Label l) { return occurs[l] ? data_cost(f, l) : 0; },
         [&](Index h) {
             std::int16_t& cost = pairwise[mesh_.edge(h)];
             if (cost == kNone) {

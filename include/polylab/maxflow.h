@@ -65,11 +65,11 @@ private:
         Index back;       // that of the sister, kept here too: searches go both ways, and need not look there
     };
     struct Node {
-        Index parent = kNone;        // arc to its parent, or kRoot, kOrphan, kNone
-        Index stamp = 0;             // augmentation after which its distance was found
-        Index distance = 0;          // number of arcs to its terminal, at that time
-        Tree tree = Tree::none;      // search tree it belongs to
-        bool queued = false;         // in active_
+        Index parent = kNone;     // arc to its parent, or kRoot, kOrphan, kNone
+        Index stamp = 0;          // augmentation after which its distance was found
+        Index distance = 0;       // number of arcs to its terminal, at that time
+        Tree tree = Tree::none;   // search tree it belongs to
+        bool queued = false;      // in active_
     };
     static constexpr Index kWaiting = -2, kApart = -3;   // level of a node that is apart
 
