@@ -1,6 +1,7 @@
 #include "polylab/turning_points.h"
 
 #include "polylab/costs.h"
+#include "polylab/marks.h"
 
 #include <algorithm>
 #include <array>
@@ -90,21 +91,21 @@ bool can_turn(const Boundary& boundary) { return boundary.halfedges.size() > 1 &
 class PublishedOrder {
 public:
     PublishedOrder(const TriMesh& mesh, const LabelingGraph& graph)
-        : mesh_(mesh), graph_(graph), ring_of_(mesh.halfedges(), kNone), recorded_(graph.rings.size(), 0),
-          met_(graph.corners.size(), 0), reversed_(graph.boundaries.size(), kUnknown) {
+        : mesh_(mesh), graph_(graph), places_(graph.ring_halfedges), ring_of_(graph.ring_halfedges.size()),
+          recorded_(graph.rings.size(), 0), met_(graph.corners.size(), 0), reversed_(graph.boundaries.size(), kUnknown) {
         for (Index r = 0; r < static_cast<Index>(graph.rings.size()); r++)
-            for (Index i = graph.rings[r].halfedges.first; i < graph.rings[r].halfedges.last; i++)
-                ring_of_[graph.ring_halfedges[i]] = r;
+            for (Index i = graph.rings[r].halfedges.first; i < graph.rings[r].halfedges.last; i++) ring_of_[i] = r;
     }
 
     // boundary -> 1 where it is traversed against its direction here
     std::vector<char> reversed() {
-        for (Index h = 0; h < mesh_.halfedges(); h++) {
-            const Index corner = graph_.corner[mesh_.from(h)];
-            if (corner == kNone) continue;
-            const Index ring = ring_at(h);
+        std::vector<Index> starts;
+        for (const Corner& c : graph_.corners) mesh_.for_each_leaving(c.vertex, [&](Index h) { starts.push_back(h); });
+        std::sort(starts.begin(), starts.end());
+        for (const Index h : starts) {
+            const Index corner = graph_.corner[mesh_.from(h)], ring = ring_at(h);
             if (ring == kNone) continue;   // another fan of this vertex is the corner
-            if (met_[corner] && graph_.is_border(h) && recorded_[ring_of_[h]]) continue;
+            if (met_[corner] && graph_.is_border(h) && recorded_[ring_of(h)]) continue;
             if (!met_[corner]) recorded_[ring] = 1;   // later rings are explored, but not recorded
             met_[corner] = 1;
             push_ring(h);
@@ -128,9 +129,14 @@ private:
         return kNone;
     }
 
+    // The ring of a border half-edge that leaves a corner; kNone if its fan has none.
+    Index ring_of(Index border) const {
+        const Index place = places_.number(border);
+        return place == kNone ? kNone : ring_of_[place];
+    }
     Index ring_at(Index h) const {
         const Index border = first_border(h);
-        return border == kNone ? kNone : ring_of_[border];
+        return border == kNone ? kNone : ring_of(border);
     }
 
     void push_ring(Index h) {
@@ -160,7 +166,8 @@ private:
 
     const TriMesh& mesh_;
     const LabelingGraph& graph_;
-    std::vector<Index> ring_of_;   // half-edge -> ring it belongs to, or kNone
+    IndexSet places_;              // half-edge -> its place in ring_halfedges
+    std::vector<Index> ring_of_;   // place -> ring
     std::vector<char> recorded_;   // ring -> 1 once its corner holds it
     std::vector<char> met_;        // corner -> 1 once it exists
     std::vector<char> reversed_;   // boundary -> result, or kUnknown
