@@ -197,6 +197,7 @@ constexpr std::array<CharacterKind, 256> kinds() {
 constexpr std::array<CharacterKind, 256> kCharacterKind = kinds();
 
 inline CharacterKind kind(char c) { return kCharacterKind[static_cast<unsigned char>(c)]; }
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 }   // namespace
 
@@ -223,14 +224,13 @@ std::string_view Scanner::token_in_line() {
 
 Index Scanner::plain_index_in_line() {
     skip_blanks();
-    const std::size_t first = at_, last = std::min(text_.size(), first + 10);
-    std::size_t end = first;
+    const std::size_t last = std::min(text_.size(), at_ + 9);
+    std::size_t end = at_;
     Index value = 0;
-    for (; end < last && text_[end] >= '0' && text_[end] <= '9' && end < first + 9; end++)
-        value = 10 * value + (text_[end] - '0');
+    for (; end < last && is_digit(text_[end]); end++) value = 10 * value + (text_[end] - '0');
     const bool ends =
         end == text_.size() || kind(text_[end]) == CharacterKind::blank || kind(text_[end]) == CharacterKind::line_end;
-    if (end == first || !ends) return kNone;
+    if (end == at_ || !ends) return kNone;
     at_ = end;
     return value;
 }
@@ -256,32 +256,30 @@ namespace {
 constexpr double kPowerOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                   1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-// Reads digits from t[at] on into `number`; at most 18 in all are counted in `digits`, so that it stays below 2^63.
-void read_digits(std::string_view t, std::size_t& at, std::uint64_t& number, int& digits) {
-    for (; at < t.size() && t[at] >= '0' && t[at] <= '9' && digits < 19; at++, digits++)
-        number = 10 * number + static_cast<std::uint64_t>(t[at] - '0');
+// Appends the digits of t from `at` on to a number, and returns where they end.
+inline std::size_t read_digits(std::string_view t, std::size_t at, std::uint64_t& number) {
+    std::uint64_t value = number;
+    for (; at < t.size() && is_digit(t[at]); at++) value = 10 * value + static_cast<std::uint64_t>(t[at] - '0');
+    number = value;
+    return at;
 }
 
 // What most files hold: up to 2^53 times or divided by a power of ten up to 10^22. Both are doubles, so that the one
 // operation rounds correctly (W. D. Clinger. How to Read Floating Point Numbers Accurately. PLDI 1990). Anything else,
 // right or wrong, is left to from_chars: false, and `first` stays.
 bool read_simple(std::string_view t, std::size_t& first, double& x) {
-    std::size_t at = first;
     std::uint64_t mantissa = 0;
-    int digits = 0, after_point = 0;
-    const bool negative = at < t.size() && t[at] == '-';
-    if (negative) at++;
-    read_digits(t, at, mantissa, digits);
-    if (at < t.size() && t[at] == '.') {
-        const int before = digits;
-        read_digits(t, ++at, mantissa, digits);
-        after_point = digits - before;
-    }
-    const bool ends = at == t.size() || kind(t[at]) != CharacterKind::ordinary;
+    const bool negative = first < t.size() && t[first] == '-';
+    const std::size_t begin = first + negative, point = read_digits(t, begin, mantissa);
+    const bool has_point = point < t.size() && t[point] == '.';
+    const std::size_t end = has_point ? read_digits(t, point + 1, mantissa) : point;
+    const std::size_t digits = end - begin - has_point, after_point = has_point ? end - point - 1 : 0;
+    const bool ends = end == t.size() || kind(t[end]) != CharacterKind::ordinary;
+    // 19 digits may have gone beyond 64 bits.
     if (!ends || digits == 0 || digits > 18 || mantissa > std::uint64_t{1} << 53) return false;
     x = static_cast<double>(mantissa) / kPowerOfTen[after_point];
     if (negative) x = -x;
-    first = at;
+    first = end;
     return true;
 }
 
