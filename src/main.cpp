@@ -46,6 +46,7 @@ public:
     explicit Console(const Arguments& arguments)
         : quiet_(arguments.has("--quiet")), verbose_(arguments.has("--verbose")), talk_(!quiet_ && (verbose_ || on_terminal())) {}
 
+    bool talks() const { return talk_; }
     void say(const std::string& line) const {
         if (talk_) print(line);
     }
@@ -164,19 +165,7 @@ TriMesh read_part(const Arguments& arguments, const Console& console) {
     return read_part(arguments, console, rotation);
 }
 
-struct Judged {
-    LabelingGraph graph;
-    Statistics statistics;
-};
-
-Judged judge(const TriMesh& mesh, const Labeling& labels, LabelingGraph graph) {
-    Judged judged;
-    judged.graph = std::move(graph);
-    judged.statistics = statistics(mesh, labels, judged.graph);
-    return judged;
-}
-
-ExitStatus status_of(const Statistics& s) { return s.result_class() == Class::invalid ? kNotValid : kDone; }
+ExitStatus status_of(const LabelingGraph& graph) { return graph.valid() ? kDone : kNotValid; }
 
 std::string program_name() { return std::string("polylab ") + kVersion + " (commit " + POLYLAB_COMMIT + ")"; }
 
@@ -229,7 +218,7 @@ State run_full(const TriMesh& mesh, const Labeling& start, Labeling locks, int e
     options.locks = std::move(locks);
     options.stop = interrupted;
     options.trace = [&](const Step& step) {
-        trace += trace_line(step);
+        if (arguments.has("--trace")) trace += trace_line(step);
         if (step.kept && !step.in_sequence)
             console.detail(step.operation + ": " + std::to_string(step.after.invalid) + " invalid, " +
                            std::to_string(step.after.turning_points) + " turning-points left");
@@ -298,30 +287,29 @@ int run_label(const Arguments& arguments) {
     } else {
         graph = build_graph(mesh, labels);
     }
-    const Judged result = judge(mesh, labels, std::move(graph));
     std::vector<ExportedFile> files = export_files(output, mesh, labels);
     if (files.empty()) files = {{output, labels_text(labels)}};
     std::string json;
     std::vector<Output> outputs = outputs_of(files);
     if (arguments.has("--stats")) {
-        json = statistics_json(result.statistics, explain(mesh, result.graph), rotation);
+        json = statistics_json(statistics(mesh, labels, graph), explain(mesh, graph), rotation);
         outputs.push_back({arguments.get("--stats"), json});
     }
     std::string report, picture;
     if (arguments.has("--report"))
         outputs.push_back({arguments.get("--report"), report = report_of("label", arguments, mesh, std::move(layers))});
-    if (arguments.has("--picture")) outputs.push_back({arguments.get("--picture"), picture = png_picture(mesh, result.graph)});
+    if (arguments.has("--picture")) outputs.push_back({arguments.get("--picture"), picture = png_picture(mesh, graph)});
     if (arguments.has("--trace")) outputs.push_back({arguments.get("--trace"), trace});
     write_files(outputs);
-    console.say(summary(result.statistics));
+    if (console.talks()) console.say(summary(statistics(mesh, labels, graph)));
     console.say((output == "-" ? "labels written" : "labels written to " + output) + " after " + watch.seconds());
-    if (const std::string advice = status_of(result.statistics) == kNotValid ? hint(mesh) : ""; !advice.empty())
+    if (const std::string advice = graph.valid() ? "" : hint(mesh); !advice.empty())
         console.say("hint: " + advice);
     if (interrupted()) {
         console.warn("interrupted: these are the best labels so far");
         return kNotValid;
     }
-    return method == "full" ? status_of(result.statistics) : kDone;
+    return method == "full" ? status_of(graph) : kDone;
 }
 
 int run_stats(const Arguments& arguments) {
@@ -329,25 +317,26 @@ int run_stats(const Arguments& arguments) {
     std::vector<double> rotation;
     const TriMesh mesh = read_part(arguments, console, rotation);
     const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
-    const Judged result = judge(mesh, labels, build_graph(mesh, labels));
-    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph), rotation);
+    const LabelingGraph graph = build_graph(mesh, labels);
+    const Statistics counts = statistics(mesh, labels, graph);
+    const std::string json = statistics_json(counts, explain(mesh, graph), rotation);
     std::string report, picture;
     std::vector<Output> outputs = {{arguments.get("-o", "-"), json}};
     if (arguments.has("--report"))
         outputs.push_back({arguments.get("--report"), report = report_of("stats", arguments, mesh, labels)});
-    if (arguments.has("--picture")) outputs.push_back({arguments.get("--picture"), picture = png_picture(mesh, result.graph)});
+    if (arguments.has("--picture")) outputs.push_back({arguments.get("--picture"), picture = png_picture(mesh, graph)});
     write_files(outputs);
-    console.say(summary(result.statistics));
-    return status_of(result.statistics);
+    console.say(summary(counts));
+    return status_of(graph);
 }
 
 int run_explain(const Arguments& arguments) {
     const Console console(arguments);
     const TriMesh mesh = read_part(arguments, console);
     const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
-    const Judged result = judge(mesh, labels, build_graph(mesh, labels));
+    const LabelingGraph graph = build_graph(mesh, labels);
     std::string text;
-    for (const Problem& p : explain(mesh, result.graph)) text += p.text + "\n";
+    for (const Problem& p : explain(mesh, graph)) text += p.text + "\n";
     const std::string advice = hint(mesh);
     if (!text.empty() && !advice.empty()) text += "hint: " + advice + "\n";
     if (text.empty()) text = "valid, and every boundary is monotone\n";
@@ -356,7 +345,7 @@ int run_explain(const Arguments& arguments) {
     if (arguments.has("--report"))
         outputs.push_back({arguments.get("--report"), report = report_of("explain", arguments, mesh, labels)});
     write_files(outputs);
-    return status_of(result.statistics);
+    return status_of(graph);
 }
 
 int run_diff(const Arguments& arguments) {
@@ -391,11 +380,12 @@ int run_polycube(const Arguments& arguments) {
     const Labeling labels = read_labels(arguments.operands[1], mesh.facets());
     MeshData polycube = mesh_data(mesh);
     polycube.points = surface_polycube(mesh, labels);
-    Judged result = judge(mesh, labels, build_graph(mesh, labels));
+    const LabelingGraph graph = build_graph(mesh, labels);
     const Distortion d = distortion(mesh, polycube.points);
-    result.statistics.distortion = d;
+    Statistics counts = statistics(mesh, labels, graph);
+    counts.distortion = d;
     const std::string text = output == "-" ? obj_text(polycube) : mesh_text(output, polycube);
-    const std::string json = statistics_json(result.statistics, explain(mesh, result.graph), rotation);
+    const std::string json = statistics_json(counts, explain(mesh, graph), rotation);
     std::vector<Output> outputs = {{output, text}};
     if (arguments.has("--stats")) outputs.push_back({arguments.get("--stats"), json});
     write_files(outputs);
