@@ -177,16 +177,18 @@ private:
 }   // namespace
 
 Chain make_chain(const TriMesh& mesh, const std::vector<Index>& halfedges, int axis) {
-    Chain chain;
     const std::size_t n = halfedges.size();
+    std::vector<Vec3> edges(n);
+    for (std::size_t i = 0; i < n; i++) edges[i] = unit(mesh.vector(halfedges[i]));
+    Chain chain;
+    for (std::vector<int>* list : {&chain.cost[0], &chain.cost[1], &chain.change}) list->resize(n);
+    chain.vertex.resize(n);
     for (std::size_t i = 0; i < n; i++) {
-        const Vec3 e = unit(mesh.vector(halfedges[i])), following = unit(mesh.vector(halfedges[i + 1 < n ? i + 1 : 0]));
-        const int against = well_cost(e[axis], kEdgeSigma, kChainScale);
+        const Vec3 &e = edges[i], &following = edges[i + 1 < n ? i + 1 : 0];
         // An edge across the axis costs nothing in either direction, so that noise in its sign is harmless.
-        chain.cost[0].push_back(e[axis] > 0 ? against : 0);
-        chain.cost[1].push_back(e[axis] > 0 ? 0 : against);
-        chain.change.push_back(bell_cost(dot(e, following) - 1, kChangeSigma, kChainScale));
-        chain.vertex.push_back(mesh.from(halfedges[i]));
+        chain.cost[e[axis] > 0 ? 0 : 1][i] = well_cost(e[axis], kEdgeSigma, kChainScale);
+        chain.change[i] = bell_cost(dot(e, following) - 1, kChangeSigma, kChainScale);
+        chain.vertex[i] = mesh.from(halfedges[i]);
     }
     return chain;
 }
