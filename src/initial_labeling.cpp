@@ -1,7 +1,5 @@
 #include "polylab/initial_labeling.h"
 
-#include "polylab/costs.h"
-
 #include <algorithm>
 
 namespace polylab {
@@ -42,8 +40,8 @@ std::vector<char> facets_to_tilt(const TriMesh& mesh, double sensitivity) {
     return tilt;
 }
 
-Vec3 tilted(const Vec3& n, double angle) {
-    const auto [s, c] = sin_cos(angle);
+Vec3 tilted(const Vec3& n, const SinCos& angle) {
+    const auto [s, c] = angle;
     return {c * c * n.x + s * c * (s - 1) * n.y + s * (c * c + s) * n.z,
             s * c * n.x + (s * s * s + c * c) * n.y + s * c * (s - 1) * n.z, -s * n.x + s * c * n.y + c * c * n.z};
 }
@@ -58,6 +56,7 @@ int pairwise_cost(const Vec3& normal, const Vec3& neighbour, int compactness) {
 
 PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) {
     PottsEnergy energy(mesh.facets());
+    const SinCos angle = sin_cos(options.angle);
     Vec3 last;   // the facets of a plane often come one after the other: the same normal, the same costs
     for (Index f = 0; f < mesh.facets(); f++) {
         if (f > 0 && mesh.normal[f] == last) {
@@ -65,7 +64,7 @@ PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) 
             continue;
         }
         last = mesh.normal[f];
-        const Vec3 n = is_to_tilt(last, options.sensitivity) ? tilted(last, options.angle) : last;
+        const Vec3 n = is_to_tilt(last, options.sensitivity) ? tilted(last, angle) : last;
         for (Label l = 0; l < kLabels; l++) energy.data[f][l] = data_cost(n, l, options.fidelity);
     }
     double cosine = 1;   // likewise

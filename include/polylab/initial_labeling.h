@@ -2,6 +2,7 @@
 #pragma once
 
 #include "polylab/alpha_expansion.h"
+#include "polylab/costs.h"
 #include "polylab/mesh.h"
 
 #include <vector>
@@ -25,11 +26,11 @@ Labeling naive_labeling(const TriMesh& mesh);
 // near 45 degrees, where rounding would decide. A facet without area is one of them; tilting leaves its zero normal.
 std::vector<char> facets_to_tilt(const TriMesh& mesh, double sensitivity);
 
-// R n with R = Rz Ry Rx, c and s from sin_cos(angle), as one matrix:
+// R n with R = Rz Ry Rx, c and s of the angle, as one matrix:
 //   [ c c   s c (s-1)     s (c c + s) ]   the published matrix: first around X, (y, z) -> (c y - s z, s y + c z), then around
 //   [ s c   s s s + c c   s c (s-1)   ]   Y, (x, z) -> (c x + s z, c z - s x), then around Z, (x, y) -> (c x - s y, s x + c y)
 //   [ -s    s c           c c         ]
-Vec3 tilted(const Vec3& normal, double angle);
+Vec3 tilted(const Vec3& normal, const SinCos& angle);
 
 // trunc(100 fidelity (1 - exp(-((n.d - 1)/0.2)^2 / 2))): what it costs to give label l to a facet with this normal.
 int data_cost(const Vec3& normal, Label l, int fidelity);

@@ -14,7 +14,7 @@ class Marks {
 public:
     // Empties the set and makes room for n indices. O(1), but for the first time, after growth, and once in 2^31 insertions.
     void clear(Index n) {
-        if (static_cast<std::size_t>(n) > mark_.size()) mark_.resize(n, 0);
+        if (static_cast<std::size_t>(n) > mark_.size()) mark_.resize(n);
         first_ = next_;
         if (first_ <= std::numeric_limits<Index>::max() - n) return;
         std::fill(mark_.begin(), mark_.end(), 0);
