@@ -303,8 +303,7 @@ int run_label(const Arguments& arguments) {
     write_files(outputs);
     if (console.talks()) console.say(summary(statistics(mesh, labels, graph)));
     console.say((output == "-" ? "labels written" : "labels written to " + output) + " after " + watch.seconds());
-    if (const std::string advice = graph.valid() ? "" : hint(mesh); !advice.empty())
-        console.say("hint: " + advice);
+    if (const std::string advice = graph.valid() ? "" : hint(mesh); !advice.empty()) console.say("hint: " + advice);
     if (interrupted()) {
         console.warn("interrupted: these are the best labels so far");
         return kNotValid;
