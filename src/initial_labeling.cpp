@@ -69,16 +69,17 @@ PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) 
     }
     double cosine = 1;   // likewise
     int cost = bell_cost(0, kPairwiseSigma, kCostScale * options.compactness);
-    for (Index h = 0; h < mesh.halfedges(); h++) {
-        const Index back = mesh.opposite[h];
-        if (h > back) continue;
-        const double c = dot(mesh.normal[mesh.left(h)], mesh.normal[mesh.right(h)]);
-        if (c != cosine) cost = bell_cost(c - 1, kPairwiseSigma, kCostScale * options.compactness);
-        cosine = c;
-        const int weight = options.free_features && mesh.feature[h] ? 0 : cost;
-        energy.arcs[facet(h)][h % 3] = {facet(back), weight};
-        energy.arcs[facet(back)][back % 3] = {facet(h), weight};
-    }
+    for (Index f = 0; f < mesh.facets(); f++)
+        for (int k = 0; k < 3; k++) {
+            const Index h = 3 * f + k, back = mesh.opposite[h], g = facet(back);
+            if (f > g) continue;
+            const double c = dot(mesh.normal[f], mesh.normal[g]);
+            if (c != cosine) cost = bell_cost(c - 1, kPairwiseSigma, kCostScale * options.compactness);
+            cosine = c;
+            const int weight = options.free_features && mesh.feature[h] ? 0 : cost;
+            energy.arcs[f][k] = {g, weight};
+            energy.arcs[g][back - 3 * g] = {f, weight};
+        }
     return energy;
 }
 

@@ -16,7 +16,8 @@ constexpr Index kFar = std::numeric_limits<Index>::max();
 
 void MaxFlow::reset(Index nodes) {
     arcs_.resize(3 * static_cast<std::size_t>(nodes));
-    for (Index arc = 0; arc < 3 * nodes; arc++) arcs_[arc] = {arc / 3, arc, 0, 0};
+    for (Index i = 0; i < nodes; i++)
+        for (Index arc = 3 * i; arc < 3 * i + 3; arc++) arcs_[arc] = {i, arc, 0, 0};
     nodes_.assign(nodes, Node{});
     terminal_.assign(nodes, 0);
     active_.resize(nodes + 1);

@@ -53,21 +53,22 @@ struct EdgeTable {
 // A counting sort by the smaller vertex, then small sorts: linear for any mesh with bounded vertex degrees.
 EdgeTable sort_edges(const MeshData& data) {
     const Index n = static_cast<Index>(data.triangles.size()), m = static_cast<Index>(data.edges.size() / 2);
-    const auto ends = [&](Index id) {
-        const Index a = id < n ? data.triangles[id] : data.edges[2 * (id - n)];
-        const Index b = id < n ? data.triangles[next(id)] : data.edges[2 * (id - n) + 1];
-        return std::pair{std::min(a, b), std::max(a, b)};
+    const auto for_each_edge = [&](const auto& visit) {
+        for (Index h = 0; h < n; h += 3) {
+            const Index a = data.triangles[h], b = data.triangles[h + 1], c = data.triangles[h + 2];
+            visit(h, a, b);
+            visit(h + 1, b, c);
+            visit(h + 2, c, a);
+        }
+        for (Index e = 0; e < m; e++) visit(n + e, data.edges[2 * e], data.edges[2 * e + 1]);
     };
     EdgeTable table;
     table.first.assign(data.points.size() + 1, 0);
     table.uses.resize(static_cast<std::size_t>(n) + m);
-    for (Index id = 0; id < n + m; id++) table.first[ends(id).first + 1]++;
+    for_each_edge([&](Index, Index a, Index b) { table.first[std::min(a, b) + 1]++; });
     for (std::size_t v = 0; v + 1 < table.first.size(); v++) table.first[v + 1] += table.first[v];
     std::vector<Index> place(table.first.begin(), table.first.end() - 1);
-    for (Index id = 0; id < n + m; id++) {
-        const auto [smaller, larger] = ends(id);
-        table.uses[place[smaller]++] = {larger, id};
-    }
+    for_each_edge([&](Index id, Index a, Index b) { table.uses[place[std::min(a, b)]++] = {std::max(a, b), id}; });
     // By (larger, id): the ids under a vertex come in order, so that only `larger` is compared.
     for (std::size_t v = 0; v + 1 < table.first.size(); v++) {
         EdgeUse *const begin = table.uses.data() + table.first[v], *const end = table.uses.data() + table.first[v + 1];
@@ -158,7 +159,11 @@ void measure(TriMesh& mesh) {
     for (Index f = 0; f < n; f++) {
         mesh.normal[f] = unit(mesh.area_vector(f));
         if (mesh.normal[f] == Vec3{}) mesh.flat_facets++;
-        for (Index h = 3 * f; h < 3 * f + 3; h++) sum += norm(mesh.vector(h));
+        const Vec3 &p = mesh.points[mesh.origin[3 * f]], &q = mesh.points[mesh.origin[3 * f + 1]],
+                   &r = mesh.points[mesh.origin[3 * f + 2]];
+        sum += norm(q - p);
+        sum += norm(r - q);
+        sum += norm(p - r);
     }
     mesh.mean_edge = sum / mesh.halfedges();
 }
