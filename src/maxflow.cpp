@@ -18,10 +18,9 @@ void MaxFlow::reset(Index nodes) {
     arcs_.resize(3 * static_cast<std::size_t>(nodes));
     for (Index i = 0; i < nodes; i++)
         for (Index arc = 3 * i; arc < 3 * i + 3; arc++) arcs_[arc] = {i, arc, 0, 0};
-    nodes_.assign(nodes, Node{});
     terminal_.assign(nodes, 0);
     active_.resize(nodes + 1);
-    level_.resize(nodes);
+    place_.resize(nodes);
     active_begin_ = active_count_ = 0;
     orphans_.clear();
     augmentations_ = 0;
@@ -52,20 +51,20 @@ void MaxFlow::add_terminals(Index node, Index from_source, Index to_sink) {
 }
 
 // Moves what the sources have (Sign 1) towards the sinks, or what the sinks lack (-1) towards the sources: all of it at
-// once, from the farthest nodes to the nearest, each node passing on what it has to those one arc nearer. Where it can't go
+// once, from the farthest nodes to the nearest, each node passing on what it has to those met before it. Where it can't go
 // on it stays, as capacity between the terminal and that node. The value of every cut stays the same, but for the flow that
-// has arrived, so the minimum cuts are those of the graph as it was. Returns what moved over
-// all arcs. O(nodes that are not apart, and their edges)
+// has arrived, so the minimum cuts are those of the graph as it was. Returns what moved over all arcs. O(nodes that are not
+// apart, and their edges)
 template <int Sign>
 std::int64_t MaxFlow::sweep() {
     constexpr Tree kFrom = Sign > 0 ? Tree::source : Tree::sink;
-    const bool all_met = find_levels<Sign>(false);
+    const bool all_met = find_places<Sign>(false);
     std::int64_t moved = 0;
     for (std::size_t k = active_count_; k-- > 0;) {
         const Index i = active_[k];
         std::int64_t& own = terminal_[i];
         for (Index arc = 3 * i; arc < 3 * i + 3 && Sign * own > 0; arc++) {
-            if (static_cast<std::uint32_t>(level_[arcs_[arc].head]) >= k) continue;
+            if (static_cast<std::uint32_t>(place_[arcs_[arc].head]) >= k) continue;   // met later, or not at all
             std::int64_t& other = terminal_[arcs_[arc].head];
             const auto amount = static_cast<Index>(std::min<std::int64_t>(Sign * own, from_root(arc, kFrom)));
             push(arc, Sign * amount);
@@ -80,31 +79,31 @@ std::int64_t MaxFlow::sweep() {
     return moved;
 }
 
-// Levels breadth-first from the sinks (Sign 1) or the sources (-1), against the direction in which a sweep moves: of all nodes
-// that can be met, or until those are met that have something to move. Whether they are. The nodes that were met are in active_
-// then, nearest first.
+// The places of nodes, breadth-first from the sinks (Sign 1) or the sources (-1), against the direction in which a sweep moves:
+// of all nodes that can be met, or until those are met that have something to move. Whether they are. The nodes that were met are
+// in active_ then, nearest first.
 template <int Sign>
-bool MaxFlow::find_levels(bool all) {
+bool MaxFlow::find_places(bool all) {
     constexpr Tree kFrom = Sign > 0 ? Tree::source : Tree::sink;
     Index waiting = all;
     for (const Index i : within_) {
         const std::int64_t terminal = Sign * terminal_[i];
-        level_[i] = terminal > 0 ? kWaiting : kNone;
+        place_[i] = terminal > 0 ? kWaiting : kNone;
         waiting += terminal > 0;
         if (terminal >= 0) continue;
-        level_[i] = static_cast<Index>(active_count_);
+        place_[i] = static_cast<Index>(active_count_);
         active_[active_count_++] = i;
     }
     std::size_t count = active_count_;
     for (std::size_t k = 0; k < count && waiting > 0; k++) {
         const Index near = active_[k];
         for (Index arc = 3 * near; arc < 3 * near + 3; arc++) {   // without branches, which nothing could foretell
-            const Index other = arcs_[arc].head, level = level_[other];
-            const bool met = (level == kNone || level == kWaiting) & (toward_root(arc, kFrom) != 0);
-            level_[other] = met ? static_cast<Index>(count) : level;
+            const Index other = arcs_[arc].head, place = place_[other];
+            const bool met = (place == kNone || place == kWaiting) & (toward_root(arc, kFrom) != 0);
+            place_[other] = met ? static_cast<Index>(count) : place;
             active_[count] = other;
             count += met;
-            waiting -= met & (level == kWaiting);
+            waiting -= met & (place == kWaiting);
         }
     }
     active_count_ = count;
@@ -115,20 +114,33 @@ bool MaxFlow::find_levels(bool all) {
 // it opens no way to them.
 void MaxFlow::set_apart() {
     for (const Index i : within_)
-        if (level_[i] < 0) level_[i] = kApart;
+        if (place_[i] < 0) place_[i] = kApart;
     within_.assign(active_.begin(), active_.begin() + static_cast<std::ptrdiff_t>(active_count_));
 }
 
-// Grows the two trees from the terminals until they meet, augments the path, repairs the trees, and goes on from there:
-// when no active node is left, no residual path joins source and sink.
 std::int64_t MaxFlow::solve() {
     // In turn from both ends: each direction soon stands before what the other one opens. Once a sweep moves less than a
     // quarter of a unit per node, the trees are quicker.
     within_.resize(nodes());
     std::iota(within_.begin(), within_.end(), 0);
     while (4 * sweep<1>() > static_cast<Index>(within_.size()) && 4 * sweep<-1>() > static_cast<Index>(within_.size())) continue;
+    const auto has = [&](int sign) {
+        return std::any_of(within_.begin(), within_.end(), [&](Index i) { return sign * terminal_[i] > 0; });
+    };
+    if (has(1) && has(-1)) grow_trees();
+    // Who can still reach a sink?
+    within_.resize(nodes());
+    std::iota(within_.begin(), within_.end(), 0);
+    find_places<1>(true);
+    return flow_;
+}
+
+// Grows the two trees from the terminals until they meet, augments the path, repairs the trees, and goes on from there:
+// when no active node is left, no residual path joins source and sink.
+void MaxFlow::grow_trees() {
+    nodes_.assign(nodes(), Node{});
     for (Index i = 0; i < nodes(); i++)
-        if (level_[i] == kApart) nodes_[i].tree = Tree::apart;
+        if (place_[i] == kApart) nodes_[i].tree = Tree::apart;
     for (const Index i : within_) {
         if (terminal_[i] == 0) continue;
         nodes_[i].tree = terminal_[i] > 0 ? Tree::source : Tree::sink;
@@ -152,11 +164,6 @@ std::int64_t MaxFlow::solve() {
             // The same arc again: it may have capacity left, or its other end may have become free.
         }
     }
-    // Who can still reach a sink?
-    within_.resize(nodes());
-    std::iota(within_.begin(), within_.end(), 0);
-    find_levels<1>(true);
-    return flow_;
 }
 
 // Flow along the arc, or against it where the amount is negative.

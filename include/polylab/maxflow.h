@@ -25,7 +25,7 @@ public:
     // The same in the memory of this one.
     void reset(Index nodes);
 
-    Index nodes() const { return static_cast<Index>(nodes_.size()); }
+    Index nodes() const { return static_cast<Index>(terminal_.size()); }
 
     // Adds an edge with capacity `there` from a to b, and `back` from b to a, not negative. Each has two edges at most so far.
     void connect(Index a, Index b, Index there, Index back);
@@ -38,7 +38,7 @@ public:
 
     // Whether the node belongs to the largest source side of a minimum cut. After solve().
     // tie: a node that fits both sides is on the source side
-    bool on_source_side(Index node) const { return level_[node] < 0; }
+    bool on_source_side(Index node) const { return place_[node] < 0; }
 
 private:
     enum class Tree : char { none, source, sink, apart };   // apart: no path from a source to a sink goes through the node
@@ -46,8 +46,9 @@ private:
     template <int Sign>
     std::int64_t sweep();
     template <int Sign>
-    bool find_levels(bool all);
+    bool find_places(bool all);
     void set_apart();
+    void grow_trees();
     bool join_or_meet(Index node, Index arc);
     void augment(Index arc);
     void push(Index arc, Index amount);
@@ -71,15 +72,16 @@ private:
         Tree tree = Tree::none;   // search tree it belongs to
         bool queued = false;      // in active_
     };
-    static constexpr Index kWaiting = -2, kApart = -3;   // level of a node that is apart
+    static constexpr Index kWaiting = -2, kApart = -3;   // places of a node that waits to be met, or is apart
 
-    std::vector<Arc> arcs_;   // those of node i are 3i, 3i + 1, 3i + 2
-    std::vector<Node> nodes_;
+    std::vector<Arc> arcs_;                // those of node i are 3i, 3i + 1, 3i + 2
+    std::vector<Node> nodes_;              // while the trees grow
     std::vector<std::int64_t> terminal_;   // node -> residual capacity from the source (> 0) or to the sink (< 0)
 
-    std::vector<Index> level_;    // node -> number of arcs to the nearest terminal that a sweep goes to, kNone, or kApart
+    std::vector<Index>
+        place_;   // node -> its place in active_ by the last search, nearest first; kNone, kWaiting: not met; kApart
     std::vector<Index> within_;   // the nodes that are not apart
-    std::vector<Index> active_;   // ring buffer of nodes whose arcs may lead out of their tree; in a sweep, nodes by level
+    std::vector<Index> active_;   // ring buffer of nodes whose arcs may lead out of their tree; in a sweep, the nodes met
     std::size_t active_begin_ = 0, active_count_ = 0;
     std::vector<Index> orphans_;   // nodes that lost their parent
     Index augmentations_ = 0;
