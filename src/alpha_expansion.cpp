@@ -45,9 +45,20 @@ void Expansion::begin(Labeling start) {
     assert(static_cast<Index>(start.size()) == energy_.sites());
     labels_ = std::move(start);
     sites_.resize(labels_.size());
-    ready_.resize(labels_.size());
-    changed_.clear();
+    ready_.assign((labels_.size() + 7) / 8 * 8, 0);
     for (Index i = 0; i < energy_.sites(); i++) find_ready(i);
+}
+
+// Calls visit(i) for each site that has the bit. Eight sites at a glance: in most of them nothing is ready.
+template <class Visit>
+void Expansion::for_each_with(unsigned char bit, const Visit& visit) const {
+    for (Index begin = 0; begin < energy_.sites(); begin += 8) {
+        std::uint64_t eight;
+        std::memcpy(&eight, &ready_[begin], 8);
+        if ((eight & 0x0101010101010101u * bit) == 0) continue;
+        for (Index i = begin; i < begin + 8; i++)
+            if ((ready_[i] & bit) != 0) visit(i);
+    }
 }
 
 void Expansion::find_ready(Index i) {
@@ -73,8 +84,7 @@ Index Expansion::excess(Index i, Label alpha) const {
 }
 
 bool Expansion::move(Label alpha) {
-    for (const Index i : changed_) find_ready(i);
-    changed_.clear();
+    for_each_with(kChanged, [&](Index i) { find_ready(i); });
     grow_region(alpha);
     settle_edges();
     collect_core();
@@ -90,24 +100,17 @@ bool Expansion::move(Label alpha) {
 void Expansion::grow_region(Label alpha) {
     region_.clear();
     beside_.clear();
-    const Index n = energy_.sites();
-    for (Index i = 0; i < n; i++) {
-        // Eight sites at a glance: in most of them nothing is ready.
-        for (std::uint64_t eight = 0; i + 8 <= n && eight == 0; i += eight == 0 ? 8 : 0) {
-            std::memcpy(&eight, &ready_[i], 8);
-            eight &= 0x0101010101010101u << alpha;
-        }
-        if (i == n || (ready_[i] >> alpha & 1) == 0) continue;
-        sites_[i] = {excess(i, alpha), 0, kNone, Choice::open};
+    for_each_with(static_cast<unsigned char>(1u << alpha), [&](Index i) {
+        sites_[i] = {excess(i, alpha), 0, Choice::open};
         region_.push_back(i);
-    }
+    });
     for (std::size_t k = 0; k < region_.size(); k++) {
         const Index i = region_[k];
         for (const auto& [j, weight] : energy_.arcs[i]) {
             if (weight == 0 || labels_[j] == alpha) continue;
             Site& other = sites_[j];
             if (other.choice == Choice::outside) {
-                other = {excess(j, alpha), 0, kNone, Choice::beside};
+                other = {excess(j, alpha), 0, Choice::beside};
                 beside_.push_back(j);
             }
             other.around += capacity(weight, labels_[i], labels_[j]);
@@ -155,7 +158,7 @@ void Expansion::collect_core() {
         sites_[seed].choice = Choice::in_core;
         for (std::size_t k = begin; k < core_.size(); k++) {
             Site& site = sites_[core_[k]];
-            site.node = static_cast<Index>(k);
+            site.around = static_cast<Index>(k);
             gains |= site.excess > 0;
             loses |= site.excess < 0;
             for (const auto& [j, weight] : energy_.arcs[core_[k]]) {
@@ -178,9 +181,9 @@ void Expansion::solve_core() {
         network_.add_terminals(k, std::max(excess, 0), std::max(-excess, 0));
         for (const auto& [j, weight] : energy_.arcs[i]) {
             const Site& other = sites_[j];
-            if (weight == 0 || other.choice != Choice::in_core || other.node <= k) continue;
+            if (weight == 0 || other.choice != Choice::in_core || other.around <= k) continue;
             const Index c = capacity(weight, labels_[i], labels_[j]);
-            network_.connect(k, other.node, c, c);
+            network_.connect(k, other.around, c, c);
         }
     }
     network_.solve();
@@ -206,9 +209,8 @@ void Expansion::take(Label alpha) {
     for (const Index i : region_) {
         if (sites_[i].choice != Choice::takes) continue;
         labels_[i] = alpha;
-        changed_.push_back(i);
-        for (const PottsEnergy::Arc& arc : energy_.arcs[i])
-            if (sites_[arc.site].choice != Choice::takes) changed_.push_back(arc.site);
+        ready_[i] |= kChanged;
+        for (const PottsEnergy::Arc& arc : energy_.arcs[i]) ready_[arc.site] |= kChanged;
     }
 }
 

@@ -59,11 +59,14 @@ private:
     // All costs doubled.
     struct Site {
         Index excess = 0;   // what it gains by alpha, with the edges to decided sites
-        Index around = 0;   // capacity of its edges to open sites, or to the region from beside it
-        Index node = 0;     // its number in core_
+        Index around = 0;   // capacity of its edges to open sites, or to the region from beside it; in the core, its number there
         Choice choice = Choice::outside;
     };
 
+    static constexpr unsigned char kChanged = 1u << kLabels;
+
+    template <class Visit>
+    void for_each_with(unsigned char bit, const Visit& visit) const;
     void find_ready(Index i);
     Index excess(Index i, Label alpha) const;
     void grow_region(Label alpha);
@@ -76,8 +79,9 @@ private:
 
     const PottsEnergy& energy_;
     Labeling labels_;
-    std::vector<unsigned char> ready_;   // site -> a bit for each label that it would not lose by, edges between takers aside
-    std::vector<Index> changed_;         // sites for which that has to be found again
+    // site -> a bit for each label that it would not lose by, edges between takers aside; kChanged: to be found again.
+    // Filled up with zeros to a multiple of eight.
+    std::vector<unsigned char> ready_;
 
     // Of the current move:
     std::vector<Site> sites_;
