@@ -65,6 +65,26 @@ Labeling naive_expansion(const PottsEnergy& energy, Labeling labels, int cycles)
     return labels;
 }
 
+// The best move towards alpha by one minimum cut of all sites, costs doubled.
+Labeling move_by_one_cut(const PottsEnergy& energy, Label alpha, const Labeling& labels) {
+    MaxFlow network(energy.sites());
+    for (Index i = 0; i < energy.sites(); i++) {
+        if (labels[i] == alpha) continue;
+        Index gain = 2 * (energy.data[i][labels[i]] - energy.data[i][alpha]);
+        for (const auto& [j, weight] : energy.arcs[i]) {
+            const bool same = labels[i] == labels[j];
+            gain += weight * (labels[j] == alpha ? 2 : same ? 0 : 1);
+            if (labels[j] != alpha && i < j) network.connect(i, j, same ? 2 * weight : weight, same ? 2 * weight : weight);
+        }
+        network.add_terminals(i, std::max(gain, 0), std::max(-gain, 0));
+    }
+    network.solve();
+    Labeling moved = labels;
+    for (Index i = 0; i < energy.sites(); i++)
+        if (labels[i] != alpha && network.on_source_side(i)) moved[i] = alpha;
+    return energy(moved) < energy(labels) ? moved : labels;
+}
+
 bool expand(Expansion& expansion, Label alpha, Labeling& labels) {
     expansion.begin(labels);
     const bool changed = expansion.move(alpha);
@@ -185,6 +205,30 @@ TEST_CASE("alpha expansion: two labels are solved exactly") {
         }
         CHECK(energy(labels) == least);
         CHECK(labels == best_move(energy, 1, Labeling(n, 0)));
+    }
+}
+
+TEST_CASE("alpha expansion: moves of many sites are the minimum cuts of whole networks") {
+    Lcg random(18);
+    for (int round = 0; round < 60; round++) {
+        const Index n = 300 + random.below(20);
+        const bool blocks = round % 2 == 0;   // runs of sites that like one label, as flat faces do, and ties all over
+        PottsEnergy energy = random_energy(random, n, 0, blocks ? 2 : 8, 0);
+        for (Index i = 0; blocks && i < n; i++)
+            for (Label l = 0; l < kLabels; l++) energy.data[i][l] += i / 40 % kLabels == l ? 0 : 3 + random.below(3) / 2;
+        for (Index i = 0; i < n; i++) energy.connect(i, (i + 1) % n, random.below(3));
+        for (Index i = 0; i + 7 < n; i += 1 + random.below(3))
+            if (free_arcs(energy, i) > 0 && free_arcs(energy, i + 7) > 0) energy.connect(i, i + 7, random.below(4));
+        Labeling labels = round % 3 == 0 ? Labeling(n, 0) : random_labels(random, n);
+        Expansion expansion(energy);
+        expansion.begin(labels);   // once: the moves themselves have to keep track of what they change
+        for (int move = 0; move < 18; move++) {
+            const Label alpha = static_cast<Label>(move % kLabels);
+            const Labeling expected = move_by_one_cut(energy, alpha, labels);
+            CHECK(expansion.move(alpha) == (expected != labels));
+            REQUIRE(expansion.labels() == expected);
+            labels = expected;
+        }
     }
 }
 
