@@ -112,9 +112,11 @@ public:
 
     // In rounds: what one round has changed is where the next one looks.
     State run(Labeling before) {
-        face_tried_.clear(mesh_.facets());
         for (Index h = 0; h < mesh_.halfedges(); h++)
-            if (is_lost(h)) relabel_face(mesh_.left(h));
+            if (mesh_.feature[h]) features_.push_back(h);
+        face_tried_.clear(mesh_.facets());
+        for (const Index h : features_)
+            if (!state_.graph.is_border(h)) relabel_face(mesh_.left(h));
         while (note_changes(before) && !over()) {
             before = state_.labels;
             for (Index b = 0; b < static_cast<Index>(state_.graph.boundaries.size()); b++) redraw_boundary(b);
@@ -122,8 +124,8 @@ public:
             for (Index f = 0; f < mesh_.facets(); f++)
                 if (near_.has(f) && points_away(f) && !turned_.has(f)) turn(f);
             face_tried_.clear(mesh_.facets());
-            for (Index h = 0; h < mesh_.halfedges(); h++)
-                if (is_lost(h) && near_.has(mesh_.left(h))) relabel_face(mesh_.left(h));
+            for (const Index h : features_)
+                if (!state_.graph.is_border(h) && near_.has(mesh_.left(h))) relabel_face(mesh_.left(h));
         }
         return std::move(state_);
     }
@@ -143,7 +145,6 @@ private:
         }
         return any;
     }
-    bool is_lost(Index h) const { return mesh_.feature[h] && !state_.graph.is_border(h); }
     bool points_away(Index f) const { return along(mesh_.normal[f], state_.labels[f]) < kAway; }
 
     // Facets, all different, that are to be widened by rings of those that touch them.
@@ -325,6 +326,7 @@ private:
     State state_;
     Index proposals_tried_ = 0;
     std::set<std::uint64_t> tried_;
+    std::vector<Index> features_;   // half-edges; those inside charts are lost
     Marks near_, in_, turned_, touched_;
     std::vector<Index> band_;
     std::size_t inner_ = 0;   // so many facets of the band have all that touch them in it
