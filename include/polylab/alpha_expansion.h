@@ -34,8 +34,9 @@ struct PottsEnergy {
 
 // The moves of an energy, which stays the caller's. A site on the source side of the cut takes alpha, one on the sink side keeps
 // its label. Work goes only where something can change, and all of it is exact:
-// - Connected sites that take alpha gain by it only if one of them would not lose, edges between them aside. From the sites
-//   that would not, a region grows as long as what it could spare for a neighbour makes up for the neighbour's loss.
+// - Sites that take alpha together can only gain if one of them is ready: if it would not lose even where none of the edges
+//   that it separates cost anything. From the ready sites a region grows, by neighbours that lose no more than the capacity
+//   of their edges to it. All others keep their labels.
 // - In the region, a site whose own gain outweighs all of its edges takes alpha whatever its neighbours do, and one whose loss
 //   does keeps its label; that settles its edges, and may decide its neighbours.
 // - Of the rest, connected sites of which none would lose by alpha take it, and of which none would gain keep.
@@ -79,8 +80,8 @@ private:
 
     const PottsEnergy& energy_;
     Labeling labels_;
-    // site -> a bit for each label that it would not lose by, edges between takers aside; kChanged: to be found again.
-    // Filled up with zeros to a multiple of eight.
+    // site -> a bit for each label that it is ready for; kChanged: to be found again. Filled up with zeros to a multiple of
+    // eight.
     std::vector<unsigned char> ready_;
 
     // Of the current move:
