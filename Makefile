@@ -3,7 +3,7 @@
 # Library sources src/NAME.cpp in the order of their dependence; src/main.cpp is the program.
 MODULES = costs orientation mesh align text io tet_surface maxflow alpha_expansion initial_labeling labeling_graph \
           turning_points patch polycube json statistics explain diff state paths validity_operators quality_operators routines \
-          polish search polylab stages exports report picture cli mesh_stats dropin
+          polish search polylab stages exports report picture cli mesh_stats dropin heap
 TESTS = $(filter-out tests/test_rays.cpp,$(wildcard tests/*.cpp))
 
 # To choose on the command line: config=release|debug|sanitize|coverage  werror=1  EMBREE=1  builddir=DIR  verbose=1  CXX=…  CXXFLAGS=…

@@ -6,6 +6,7 @@
 #include "polylab/dropin.h"
 #include "polylab/explain.h"
 #include "polylab/exports.h"
+#include "polylab/heap.h"
 #include "polylab/picture.h"
 #include "polylab/polylab.h"
 #include "polylab/report.h"
@@ -13,22 +14,15 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <new>
 
 #if defined(__unix__) || defined(__APPLE__)
-#include <sys/mman.h>
 #include <unistd.h>
 static bool on_terminal() { return isatty(2) != 0; }
 #else
 static bool on_terminal() { return false; }
-#endif
-
-#if defined(__GLIBC__)
-#include <malloc.h>
 #endif
 
 #if !defined(POLYLAB_COMMIT)
@@ -628,32 +622,8 @@ int run(const std::vector<std::string>& words) {
 }   // namespace
 }   // namespace polylab
 
-// Fresh memory is what short runs spend most of their time on: the system hands it out page by page and clears it. So the
-// heap starts on a large page, takes its address space in one step, keeps what is freed, and asks for large pages. Where
-// that can't be had nothing changes but the time.
-static void prepare_heap() {
-#if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
-    constexpr int kStep = 1 << 30;   // of address space; memory is taken as it is used
-    constexpr std::uintptr_t kLargePage = 2 << 20;
-    mallopt(M_MMAP_THRESHOLD, kStep);
-    mallopt(M_TRIM_THRESHOLD, kStep);
-    mallopt(M_TOP_PAD, kStep);
-    // A page that was touched before stays small, with all of the large one around it: the first allocation in the new
-    // space, larger than what glibc's heap starts with, comes to lie just below a large page.
-    constexpr std::uintptr_t kFirst = 144 << 10, kBelow = 160 << 10;
-    const std::uintptr_t heap_end = reinterpret_cast<std::uintptr_t>(sbrk(0)) + kBelow;
-    sbrk(static_cast<std::intptr_t>(kLargePage - heap_end % kLargePage));
-    if (void* const first = std::malloc(kFirst)) {
-        const std::uintptr_t page = (reinterpret_cast<std::uintptr_t>(first) + kBelow) & ~(kLargePage - 1);
-        madvise(reinterpret_cast<void*>(page), kStep, MADV_HUGEPAGE);   // NOLINT(performance-no-int-to-ptr)
-        std::free(first);
-    }
-    mallopt(M_TOP_PAD, kLargePage);
-#endif
-}
-
 int main(int argc, char** argv) {
-    prepare_heap();
+    polylab::prepare_heap();
     try {
         const std::string called = argc > 0 ? argv[0] : "", name = called.substr(called.find_last_of('/') + 1);
         const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);

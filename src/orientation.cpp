@@ -25,9 +25,10 @@ struct Box {
 };
 
 struct Components {
-    std::vector<Index> facets;   // all facets, component by component
-    std::vector<Index> first;    // component -> its first entry of `facets`; one more at the end
-    std::vector<char> turned;    // facet -> 1 where it disagrees with the first facet of its component
+    std::vector<Index> facets;    // all facets, component by component
+    std::vector<Index> first;     // component -> its first entry of `facets`; one more at the end
+    std::vector<char> turned;     // facet -> 1 where it disagrees with the first facet of its component
+    std::vector<double> volume;   // component -> six times what it encloses, positive where its facets face outward then
 
     Index count() const { return static_cast<Index>(first.size()) - 1; }
 };
@@ -35,25 +36,29 @@ struct Components {
 Index next_in_facet(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
 // Breadth-first from the smallest facet of each component; neighbours must run through their edge in opposite directions.
-Components find_components(const std::vector<Index>& origin, const std::vector<Index>& opposite) {
+// Volumes are taken about the component's first vertex, so that a part far from the origin loses no digits.
+Components find_components(const std::vector<Vec3>& points, const std::vector<Index>& origin,
+                           const std::vector<Index>& opposite) {
+    constexpr char kUnseen = 2;
     const Index n = static_cast<Index>(origin.size() / 3);
     Components c;
-    c.turned.assign(n, 0);
+    c.turned.assign(n, kUnseen);
     c.facets.reserve(n);
-    std::vector<char> seen(n, 0);
     for (Index seed = 0; seed < n; seed++) {
-        if (seen[seed]) continue;
+        if (c.turned[seed] != kUnseen) continue;
         c.first.push_back(static_cast<Index>(c.facets.size()));
-        seen[seed] = 1;
+        c.turned[seed] = 0;
         c.facets.push_back(seed);
+        const Vec3 about = points[origin[3 * seed]];
+        double volume = 0;
         for (std::size_t i = c.facets.size() - 1; i < c.facets.size(); i++) {
             const Index f = c.facets[i];
+            const char own = c.turned[f];
             for (Index h = 3 * f; h < 3 * f + 3; h++) {
                 const Index g = opposite[h] / 3;
                 const bool agrees = origin[h] == origin[next_in_facet(opposite[h])];
-                const char turned = static_cast<char>(agrees ? c.turned[f] : !c.turned[f]);
-                if (!seen[g]) {
-                    seen[g] = 1;
+                const char turned = static_cast<char>(agrees ? own : !own);
+                if (c.turned[g] == kUnseen) {
                     c.turned[g] = turned;
                     c.facets.push_back(g);
                 } else if (c.turned[g] != turned) {
@@ -61,25 +66,15 @@ Components find_components(const std::vector<Index>& origin, const std::vector<I
                                      ": expected a surface with two sides, found one that can't be oriented (a Möbius strip)");
                 }
             }
+            const Vec3 p = points[origin[3 * f]] - about, q = points[origin[3 * f + 1]] - about,
+                       r = points[origin[3 * f + 2]] - about;
+            const double v = dot(p, cross(q, r));
+            volume += own ? -v : v;
         }
+        c.volume.push_back(volume);
     }
     c.first.push_back(n);
     return c;
-}
-
-// Six times the volume that the component encloses, positive where its facets (turned as `turned` says) face outward.
-// Taken about the component's first vertex, so that a part far from the origin loses no digits.
-double volume6(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c, Index component) {
-    const Vec3 about = points[origin[3 * c.facets[c.first[component]]]];
-    double sum = 0;
-    for (Index i = c.first[component]; i < c.first[component + 1]; i++) {
-        const Index f = c.facets[i];
-        const Vec3 p = points[origin[3 * f]] - about, q = points[origin[3 * f + 1]] - about,
-                   r = points[origin[3 * f + 2]] - about;
-        const double v = dot(p, cross(q, r));
-        sum += c.turned[f] ? -v : v;
-    }
-    return sum;
 }
 
 // The line along x through (y, z) = (p.y + 0, p.z): an edge is crossed where its ends lie at different sides of p.y, vertices
@@ -187,8 +182,7 @@ private:
 };
 
 // component -> how many others contain it. Boxes first (sorted along x), then volumes, then point location.
-std::vector<int> nesting_depth(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c,
-                               const std::vector<double>& volume) {
+std::vector<int> nesting_depth(const std::vector<Vec3>& points, const std::vector<Index>& origin, const Components& c) {
     constexpr double kLess = 1 - 1e-9;   // rounding leaves equal volumes closer than this
     const Index n = c.count();
     std::vector<int> depth(n, 0);
@@ -216,7 +210,7 @@ std::vector<int> nesting_depth(const std::vector<Vec3>& points, const std::vecto
         const Locator locator(points, origin, c, outer, box[outer]);
         // Two components on the same place do not contain each other: the inner one has less volume.
         for (const Index inner : candidates)
-            if (std::abs(volume[inner]) <= kLess * std::abs(volume[outer]) &&
+            if (std::abs(c.volume[inner]) <= kLess * std::abs(c.volume[outer]) &&
                 locator.contains(inner_point(points, origin, c, inner)))
                 depth[inner]++;
     }
@@ -226,16 +220,14 @@ std::vector<int> nesting_depth(const std::vector<Vec3>& points, const std::vecto
 }   // namespace
 
 Orientation orient(const std::vector<Vec3>& points, const std::vector<Index>& origin, const std::vector<Index>& opposite) {
-    Components c = find_components(origin, opposite);
-    std::vector<double> volume(c.count());
-    for (Index i = 0; i < c.count(); i++) volume[i] = volume6(points, origin, c, i);
-    const std::vector<int> depth = nesting_depth(points, origin, c, volume);
+    Components c = find_components(points, origin, opposite);
+    const std::vector<int> depth = nesting_depth(points, origin, c);
     Orientation result;
     result.components = c.count();
     for (Index i = 0; i < c.count(); i++) {
         const bool cavity = depth[i] % 2 == 1;
         result.cavities += cavity;
-        if (cavity ? volume[i] > 0 : volume[i] < 0)
+        if (cavity ? c.volume[i] > 0 : c.volume[i] < 0)
             for (Index j = c.first[i]; j < c.first[i + 1]; j++) c.turned[c.facets[j]] ^= 1;
         bool all = true;
         for (Index j = c.first[i]; j < c.first[i + 1] && all; j++) all = c.turned[c.facets[j]];

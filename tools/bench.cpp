@@ -1,5 +1,6 @@
 // bench PART: labels one part and prints a line per stage: name, CPU milliseconds, peak memory of the process so far in kB.
 // One run per process, so that the peak is the run's own. tools/bench.sh repeats it and makes the tables.
+#include "polylab/heap.h"
 #include "polylab/polylab.h"
 
 #include <sys/resource.h>
@@ -29,6 +30,7 @@ static void lap(const char* stage) {
 }
 
 int main(int argc, char** argv) {
+    prepare_heap();
     try {
         if (argc != 2) throw InputError("usage: bench PART");
         lap("start");
