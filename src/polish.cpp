@@ -82,9 +82,10 @@ Proposals Redraw::changes(const State& state, const std::vector<Index>& facets) 
     std::sort(all.begin(), all.end(), [](const Relabel& a, const Relabel& b) { return a.facet < b.facet; });   // all different
     Proposals parts;
     for (const Relabel& seed : all) {
-        std::vector<Index> sites = {sites_.number(seed.facet)};
-        if (!differs[sites[0]]) continue;   // in a part already
-        differs[sites[0]] = 0;
+        const Index first = sites_.number(seed.facet);
+        if (!differs[first]) continue;   // in a part already
+        differs[first] = 0;
+        std::vector<Index> sites = {first};
         Patch part;
         for (std::size_t i = 0; i < sites.size(); i++) {
             const Index f = facets[sites[i]];
