@@ -16,8 +16,7 @@ constexpr Index kFar = std::numeric_limits<Index>::max();
 
 void MaxFlow::reset(Index nodes) {
     arcs_.resize(3 * static_cast<std::size_t>(nodes));
-    for (Index i = 0; i < nodes; i++)
-        for (Index arc = 3 * i; arc < 3 * i + 3; arc++) arcs_[arc] = {i, arc, 0, 0};
+    for (Index arc = 0; arc < 3 * nodes; arc++) arcs_[arc] = {arc, 0, 0};
     terminal_.assign(nodes, 0);
     active_.resize(nodes + 1);
     place_.resize(nodes);
@@ -31,13 +30,13 @@ void MaxFlow::connect(Index a, Index b, Index there, Index back) {
     assert(a != b && there >= 0 && back >= 0);
     const auto free_arc = [&](Index node) {
         Index arc = 3 * node;
-        while (arcs_[arc].head != node) arc++;
+        while (arcs_[arc].sister != arc) arc++;
         assert(arc < 3 * node + 3);
         return arc;
     };
     const Index arc = free_arc(a), sister = free_arc(b);
-    arcs_[arc] = {b, sister, there, back};
-    arcs_[sister] = {a, arc, back, there};
+    arcs_[arc] = {sister, there, back};
+    arcs_[sister] = {arc, back, there};
 }
 
 void MaxFlow::add_terminals(Index node, Index from_source, Index to_sink) {
@@ -64,8 +63,8 @@ std::int64_t MaxFlow::sweep() {
         const Index i = active_[k];
         std::int64_t& own = terminal_[i];
         for (Index arc = 3 * i; arc < 3 * i + 3 && Sign * own > 0; arc++) {
-            if (static_cast<std::uint32_t>(place_[arcs_[arc].head]) >= k) continue;   // met later, or not at all
-            std::int64_t& other = terminal_[arcs_[arc].head];
+            if (static_cast<std::uint32_t>(place_[arcs_[arc].head()]) >= k) continue;   // met later, or not at all
+            std::int64_t& other = terminal_[arcs_[arc].head()];
             const auto amount = static_cast<Index>(std::min<std::int64_t>(Sign * own, from_root(arc, kFrom)));
             push(arc, Sign * amount);
             if (Sign * other < 0) flow_ += std::min<std::int64_t>(amount, -Sign * other);
@@ -98,7 +97,7 @@ bool MaxFlow::find_places(bool all) {
     for (std::size_t k = 0; k < count && waiting > 0; k++) {
         const Index near = active_[k];
         for (Index arc = 3 * near; arc < 3 * near + 3; arc++) {   // without branches, which nothing could foretell
-            const Index other = arcs_[arc].head, place = place_[other];
+            const Index other = arcs_[arc].head(), place = place_[other];
             const bool met = (place == kNone || place == kWaiting) & (toward_root(arc, kFrom) != 0);
             place_[other] = met ? static_cast<Index>(count) : place;
             active_[count] = other;
@@ -186,7 +185,7 @@ Index MaxFlow::from_root(Index arc, Tree tree) const { return tree == Tree::sour
 bool MaxFlow::join_or_meet(Index node, Index arc) {
     const Tree tree = nodes_[node].tree;
     if (from_root(arc, tree) == 0) return false;
-    const Index other = arcs_[arc].head;
+    const Index other = arcs_[arc].head();
     if (nodes_[other].tree == Tree::none) {
         nodes_[other].tree = tree;
         nodes_[other].parent = arcs_[arc].sister;
@@ -207,11 +206,11 @@ bool MaxFlow::join_or_meet(Index node, Index arc) {
 // Pushes as much as possible along the path root - tail(arc) - head(arc) - root; `arc` leads from the source tree to the
 // sink tree. Nodes whose link to the parent is saturated become orphans.
 void MaxFlow::augment(Index arc) {
-    const Index ends[2] = {arcs_[arcs_[arc].sister].head, arcs_[arc].head};
+    const Index ends[2] = {arcs_[arcs_[arc].sister].head(), arcs_[arc].head()};
     Index amount = arcs_[arc].residual;
     for (const Index end : ends) {
         Index i = end;
-        for (; nodes_[i].parent != kRoot; i = arcs_[nodes_[i].parent].head)
+        for (; nodes_[i].parent != kRoot; i = arcs_[nodes_[i].parent].head())
             amount = std::min(amount, toward_root(nodes_[i].parent, nodes_[i].tree));
         amount = static_cast<Index>(std::min<std::int64_t>(amount, std::abs(terminal_[i])));
     }
@@ -224,7 +223,7 @@ void MaxFlow::augment(Index arc) {
             const Index up = nodes_[i].parent;
             push(up, nodes_[i].tree == Tree::source ? -amount : amount);
             if (toward_root(up, nodes_[i].tree) == 0) make_orphan(i);
-            i = arcs_[up].head;
+            i = arcs_[up].head();
         }
         terminal_[i] -= terminal_[i] > 0 ? amount : -amount;
         if (terminal_[i] == 0) make_orphan(i);
@@ -236,7 +235,7 @@ void MaxFlow::adopt(Index node) {
     const Tree tree = nodes_[node].tree;
     Index best = kNone, best_distance = kFar;
     for (Index arc = 3 * node; arc < 3 * node + 3; arc++) {
-        const Index other = arcs_[arc].head;
+        const Index other = arcs_[arc].head();
         if (nodes_[other].tree != tree || toward_root(arc, tree) == 0) continue;
         const Index distance = distance_to_root(other);
         if (distance < best_distance) {
@@ -251,10 +250,10 @@ void MaxFlow::adopt(Index node) {
         return;
     }
     for (Index arc = 3 * node; arc < 3 * node + 3; arc++) {
-        const Index other = arcs_[arc].head;
+        const Index other = arcs_[arc].head();
         if (nodes_[other].tree != tree) continue;
         if (toward_root(arc, tree) > 0) activate(other);   // it could have had this node as a child
-        if (nodes_[other].parent >= 0 && arcs_[nodes_[other].parent].head == node) make_orphan(other);
+        if (nodes_[other].parent >= 0 && arcs_[nodes_[other].parent].head() == node) make_orphan(other);
     }
     nodes_[node].tree = Tree::none;
 }
@@ -274,10 +273,10 @@ Index MaxFlow::distance_to_root(Index node) {
             break;
         }
         if (nodes_[i].parent < 0) return kFar;
-        i = arcs_[nodes_[i].parent].head;
+        i = arcs_[nodes_[i].parent].head();
     }
     Index left = distance;
-    for (i = node; nodes_[i].stamp != augmentations_; i = arcs_[nodes_[i].parent].head) {
+    for (i = node; nodes_[i].stamp != augmentations_; i = arcs_[nodes_[i].parent].head()) {
         nodes_[i].stamp = augmentations_;
         nodes_[i].distance = left--;
     }

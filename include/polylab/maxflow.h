@@ -60,10 +60,11 @@ private:
     void make_orphan(Index node);
 
     struct Arc {
-        Index head;       // the node it points to; its own where a node has fewer edges
-        Index sister;     // the reverse arc
+        Index sister;     // the reverse arc; the arc itself where a node has fewer edges
         Index residual;   // capacity left
         Index back;       // that of the sister, kept here too: searches go both ways, and need not look there
+
+        Index head() const { return static_cast<Index>(static_cast<std::uint32_t>(sister) / 3); }   // the node it points to
     };
     struct Node {
         Index parent = kNone;     // arc to its parent, or kRoot, kOrphan, kNone
