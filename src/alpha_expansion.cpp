@@ -61,6 +61,7 @@ void Expansion::for_each_with(unsigned char bit, const Visit& visit) const {
     }
 }
 
+// The labels by which the site would not lose: excess() of each of them, all at once.
 void Expansion::find_ready(Index i) {
     const std::array<Index, kLabels>& data = energy_.data[i];
     const Label own = labels_[i];

@@ -46,13 +46,9 @@ Vec3 tilted(const Vec3& n, const SinCos& angle) {
             s * c * n.x + (s * s * s + c * c) * n.y + s * c * (s - 1) * n.z, -s * n.x + s * c * n.y + c * c * n.z};
 }
 
-namespace {
-
-int data_cost(double along, int fidelity) { return well_cost(along - 1, kDataSigma, kCostScale * fidelity); }
-
-}   // namespace
-
-int data_cost(const Vec3& normal, Label l, int fidelity) { return data_cost(along(normal, l), fidelity); }
+int data_cost(const Vec3& normal, Label l, int fidelity) {
+    return well_cost(along(normal, l) - 1, kDataSigma, kCostScale * fidelity);
+}
 
 int pairwise_cost(const Vec3& normal, const Vec3& neighbour, int compactness) {
     return bell_cost(dot(normal, neighbour) - 1, kPairwiseSigma, kCostScale * compactness);
@@ -69,11 +65,7 @@ PottsEnergy labeling_energy(const TriMesh& mesh, const InitialOptions& options) 
         }
         last = mesh.normal[f];
         const Vec3 n = is_to_tilt(last, options.sensitivity) ? tilted(last, angle) : last;
-        const double components[] = {n.x, n.y, n.z};
-        for (int a = 0; a < 3; a++) {
-            energy.data[f][2 * a] = data_cost(components[a], options.fidelity);
-            energy.data[f][2 * a + 1] = data_cost(-components[a], options.fidelity);
-        }
+        for (Label l = 0; l < kLabels; l++) energy.data[f][l] = data_cost(n, l, options.fidelity);
     }
     double cosine = 1;   // likewise
     int cost = bell_cost(0, kPairwiseSigma, kCostScale * options.compactness);

@@ -25,10 +25,11 @@ struct Box {
 };
 
 struct Components {
-    std::vector<Index> facets;    // all facets, component by component
-    std::vector<Index> first;     // component -> its first entry of `facets`; one more at the end
-    std::vector<char> turned;     // facet -> 1 where it disagrees with the first facet of its component
-    std::vector<double> volume;   // component -> six times what it encloses, positive where its facets face outward then
+    std::vector<Index> facets;   // all facets, component by component
+    std::vector<Index> first;    // component -> its first entry of `facets`; one more at the end
+    std::vector<char> turned;    // facet -> 1 where it disagrees with the first facet of its component
+    std::vector<double>
+        volume;   // component -> six times the volume that it encloses, positive if turned like this it faces outward
 
     Index count() const { return static_cast<Index>(first.size()) - 1; }
 };

@@ -181,7 +181,9 @@ Chain make_chain(const TriMesh& mesh, const std::vector<Index>& halfedges, int a
     std::vector<Vec3> edges(n);
     for (std::size_t i = 0; i < n; i++) edges[i] = unit(mesh.vector(halfedges[i]));
     Chain chain;
-    for (std::vector<int>* list : {&chain.cost[0], &chain.cost[1], &chain.change}) list->resize(n);
+    chain.cost[0].resize(n);
+    chain.cost[1].resize(n);
+    chain.change.resize(n);
     chain.vertex.resize(n);
     for (std::size_t i = 0; i < n; i++) {
         const Vec3 &e = edges[i], &following = edges[i + 1 < n ? i + 1 : 0];

@@ -79,10 +79,11 @@ private:
     std::vector<Node> nodes_;              // while the trees grow
     std::vector<std::int64_t> terminal_;   // node -> residual capacity from the source (> 0) or to the sink (< 0)
 
-    std::vector<Index>
-        place_;   // node -> its place in active_ by the last search, nearest first; kNone, kWaiting: not met; kApart
+    std::vector<Index> place_;    // node -> its place in active_ by the last search; kNone or kWaiting: not met; kApart
     std::vector<Index> within_;   // the nodes that are not apart
-    std::vector<Index> active_;   // ring buffer of nodes whose arcs may lead out of their tree; in a sweep, the nodes met
+    // Ring buffer of nodes whose arcs may lead out of their tree. In a sweep: the nodes met, nearest first, and room for one
+    // more, which a search writes before it knows whether it counts.
+    std::vector<Index> active_;
     std::size_t active_begin_ = 0, active_count_ = 0;
     std::vector<Index> orphans_;   // nodes that lost their parent
     Index augmentations_ = 0;
